@@ -27,7 +27,7 @@ from sdph.methods.mps.method import MpsStepper
 from sdph.methods.solids.method import SolidStepper
 from sdph.running import inputs, metrics, vessel
 from sdph.schema import CaseError
-from sdph.study import closed_vessels
+from sdph.study import closed_vessels, crossing
 from sdph.study import memory as room
 from sdph.study.explain import estimate
 
@@ -46,20 +46,28 @@ def priced(case, template: Path):
     if not (template / poly_mesh.FOLDER).is_dir():
         return estimate.by_openfoam(math.prod(cells(case)))
     mesh = poly_mesh.read(template)
-    return estimate.by_openfoam(len(mesh.volumes))._replace(edges=_edges(case.only("grains"), mesh))
+    grains = case.only("grains")
+    crossed = crossing.among_grains(grains, mesh, _held(grains, cell_sizes.middles(mesh)))
+    return estimate.by_openfoam(len(mesh.volumes))._replace(edges=_edges(grains, mesh), crossed=crossed)
 
 
 def _edges(case, mesh) -> tuple[float, float]:
     """Shortest and longest edge [m] of the cells that hold grains at the start; where none do, medians of all: nobody
     knows where grains will come to, and cells far off may be large."""
     own = cell_sizes.edges(mesh, case.dimensions)
-    held = np.zeros(len(own.middles), bool)
-    for region in case.particles.values():
-        low, high = start.extents(case, region)
-        held |= ((own.middles >= low) & (own.middles <= high)).all(axis=1)
+    held = _held(case, own.middles)
     if not held.any():
         return float(np.median(own.shortest)), float(np.median(own.longest))
     return float(own.shortest[held].min()), float(own.longest[held].max())
+
+
+def _held(case, middles: np.ndarray) -> np.ndarray:
+    """(C,) True for cells with their middles (C, d or more) [m] where grains are at the start."""
+    held, middles = np.zeros(len(middles), bool), middles[:, : case.dimensions]
+    for region in case.particles.values():
+        low, high = start.extents(case, region)
+        held |= ((middles >= low) & (middles <= high)).all(axis=1)
+    return held
 
 
 @contextlib.contextmanager

@@ -11,6 +11,7 @@ micro_drops                Taflin et al. 1988: d^2 of micrometric water drops, f
 bed_transfer               Wakao & Funazkri 1978: Sherwood numbers of packed beds, laws alone
 heated_bed                 Beaulieu 2020: temperature in a packed bed of steel, from runs
 hot_tube                   Zhang et al. 2014, Grewal & Saxena 1980: heat from a tube to a bed, from runs with OpenFOAM
+tube_bank                  Grewal 1981: heat from a staggered bank of tubes, from a run with OpenFOAM
 bed_pressure               Toomey & Johnstone 1952: pressure drop of fluidised beds, from runs
 bed_profiles               Mueller et al. 2009: voidage and velocity across a bubbling bed, from runs
 drop_spread                Pasandideh-Fard et al. 1996, Roisman 2009: largest spread of a drop on a wall, from runs
@@ -27,6 +28,7 @@ NAMES = (
     "bed_transfer",
     "heated_bed",
     "hot_tube",
+    "tube_bank",
     "bed_pressure",
     "bed_profiles",
 )
@@ -47,6 +49,7 @@ MEASURED = {
         "transfer in a bed": ("Wakao & Funazkri 1978", "Sherwood numbers of packed beds", "laws"),
         "packed steel": ("Beaulieu 2020", "temperature in a heated bed of steel spheres", "runs"),
         "hot tube": ("Zhang et al. 2014, Grewal & Saxena 1980", "heat from a tube to a bed, laws of others", "runs"),
+        "tube bank": ("Grewal 1981", "heat from a bank of tubes to a bed, law of others", "runs"),
         "bed of beads": ("Toomey & Johnstone 1952", "pressure drop of fluidised beds", "runs"),
         "bed of seeds": ("Mueller et al. 2009", "voidage and velocity of grains across a bubbling bed", "runs"),
         "spread of a drop": ("Pasandideh-Fard et al. 1996, Roisman 2009", "largest spread of a drop on a wall", "runs"),

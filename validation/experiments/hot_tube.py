@@ -52,8 +52,9 @@ def checks(folder: Path, overrides=(), reporter=None, end: float = END) -> list[
     ]
 
 
-def run(speed: float | None, folder: Path, overrides, reporter, end: float):
-    """The scene with a hot tube and gas of a superficial velocity [m/s]; None: that of minimum fluidisation."""
+def run(speed: float | None, folder: Path, overrides, reporter, end: float, gas_folder: Path | None = None):
+    """The scene with a hot tube and gas of a superficial velocity [m/s]; None: that of minimum fluidisation. Its gas
+    case is that of the scene, or another one of a folder."""
     case = cases.load(scenes.find(SCENE)[1])
     speed = speed or at_onset(case)
     own = [*case.effects, "conduction", "wall_heat"]
@@ -62,7 +63,7 @@ def run(speed: float | None, folder: Path, overrides, reporter, end: float):
         f"effects={own!r}", "conduction.law='zehner_schluender'", f"boundaries.tube.temperature_K={hot!r}",
         f"boundaries.inlet.velocity_m_s=[0.0,{speed!r}]", f"run.end_time_s={end!r}", "coupling.gas='openfoam'",
     )  # fmt: skip
-    driver.run(cases.load(scenes.find(SCENE)[1], (*overrides, *given)), SCENE, folder, None, reporter)
+    driver.run(cases.load(scenes.find(SCENE)[1], (*overrides, *given)), SCENE, folder, gas_folder, reporter)
     return compare.open_run(folder)
 
 

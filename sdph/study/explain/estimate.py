@@ -77,13 +77,15 @@ IN_SPACE = 2.5
 
 class Priced(NamedTuple):
     """A gas solver, its cells, its time for each window and for each cell of it [us], and, of a mesh that the case
-    brings, shortest and longest edge [m] of the cells where grains stand."""
+    brings, shortest and longest edge [m] of the cells where grains stand, and how often in a second [1/s] gas crosses
+    one there, at most."""
 
     name: str
     cells: int
     window: float
     cell: float
     edges: tuple[float, float] | None = None
+    crossed: float = 0.0
 
 
 def by_openfoam(cells: int) -> Priced:
@@ -193,9 +195,9 @@ def warnings(case, edges=None) -> list[str]:
     ]
 
 
-def limits(case, scales) -> list[dict]:
-    """Largest window and sub-step by cause [s]; the least of each kind rules."""
-    rows = [*_windows(case, scales), *_sub_steps(case, scales)]
+def limits(case, scales, crossed: float = 0.0) -> list[dict]:
+    """Largest window and sub-step by cause [s]; the least of each kind rules. `crossed` as of `Priced`."""
+    rows = [*_windows(case, scales, crossed), *_sub_steps(case, scales)]
     least = {kind: min(value for k, _, value, _ in rows if k == kind) for kind in ("window", "sub-step")}
     return [
         {"of": kind, "cause": cause, "largest [s]": value, "rules": "<-" if value == least[kind] else "", "how": how}
@@ -203,7 +205,7 @@ def limits(case, scales) -> list[dict]:
     ]
 
 
-def _windows(case, s) -> list[tuple]:
+def _windows(case, s, crossed: float) -> list[tuple]:
     own = case.coupling
     rows = [
         ("window", "largest", own.window_largest, "coupling.window_largest_s"),
@@ -212,7 +214,7 @@ def _windows(case, s) -> list[tuple]:
     how = "coupling.courant cell/U of what enters or is thrown: the first window obeys it"
     rows += [("window", cause, value, how) for cause, value in opening(case).items()]
     how = "coupling.courant cell/U of what moves once the start is over: an estimate"
-    rows += [("window", f"{cause}, later", value, how) for cause, value in pace.later(case, s).items()]
+    rows += [("window", f"{cause}, later", value, how) for cause, value in pace.later(case, s, crossed).items()]
     how = {
         "grip": "of the time in which gas that has to flow past stops grains, beyond their own drag",
         "settling": "run.accuracy of what moves, over the error of a drift by weight or field",
@@ -265,7 +267,7 @@ def expected(case, s, priced: Priced | None = None) -> list[dict]:
     start, cells = len(_state(case).x), priced.cells
     most, mean = feed.incoming(case)
     end, count = start + most, start + mean
-    windows, steps = pace.expected(case, s, _state(case))
+    windows, steps = pace.expected(case, s, _state(case), priced.crossed)
     particle = 1e-6 * count * steps * (own.moving if effects.moving(case) else own.resting)
     particle *= in_space
     gas = 1e-6 * windows * (priced.window + cells * priced.cell)

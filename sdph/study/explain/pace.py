@@ -40,14 +40,14 @@ class Pace(NamedTuple):
     steps: int
 
 
-def expected(case, s, state) -> Pace:
-    """Counts for the case with scales `s` and particles as in `state` at the start."""
+def expected(case, s, state, crossed: float = 0.0) -> Pace:
+    """Counts for the case with scales `s` and particles as in `state` at the start; `crossed` as of `later`."""
     early, late = (
         case.run.step_factor * min(sub_steps(case, s, state, come_down).values(), default=math.inf)
         for come_down in (False, True)
     )
     moving, windows, steps, time, falling = effects.moving(case), 0, 0.0, 0.0, coming_down(case, s)
-    for length, number in lengths(case, s, state):
+    for length, number in lengths(case, s, state, crossed):
         windows += number
         steps += number * parts(length, early if time < falling else late, moving)
         time += number * length
@@ -63,11 +63,11 @@ def parts(window: float, limit: float, moving: bool) -> float:
     return max(1, math.ceil(share))
 
 
-def lengths(case, s, state) -> list[tuple[float, int]]:
-    """(length [s], how many) of the windows, one after the other."""
+def lengths(case, s, state, crossed: float = 0.0) -> list[tuple[float, int]]:
+    """(length [s], how many) of the windows, one after the other; `crossed` as of `later`."""
     clock = Window(case)
     clock.obey(asked(case, s, state))
-    driven, found, time = Driven(case, s, clock), [], 0.0
+    driven, found, time = Driven(case, s, clock, crossed), [], 0.0
     if min([clock.longest(), *driven.steady.values()]) < clock.shortest:  # the run itself will say that it gets nowhere
         return [(clock.longest(), math.ceil(case.run.end_time / clock.longest()))]
     while not clock.over(time) and not driven.settled():
@@ -90,8 +90,8 @@ class Driven:
     """News for a clock after each window: speeds that the case leads to, and the heat that one lump of grains
     exchanges with its gas, from the temperatures that both start with."""
 
-    def __init__(self, case, s, clock):
-        self.clock, self.steady = clock, later(case, s)
+    def __init__(self, case, s, clock, crossed: float):
+        self.clock, self.steady = clock, later(case, s, crossed)
         self.fastest = s.speed if effects.moving(case) else 0.0
         self.rate, self.flow = 0.0, None  # [1/s], and heat in the last window over its length, of all there is [1/s]
         self.feed, self.time, self.thickening = feed.of(case, s), 0.0, thickening(case)
@@ -132,12 +132,16 @@ class Driven:
         self.clock.learn(dt, given, change, courant, self.fastest)
 
 
-def later(case, s) -> dict[str, float]:
-    """Longest windows [s] by what moves once the start is over, of gas and of grains."""
+def later(case, s, crossed: float = 0.0) -> dict[str, float]:
+    """Longest windows [s] by what moves once the start is over, of gas and of grains; `crossed` is how often in a
+    second [1/s] gas crosses a cell of a mesh of its own, where there is one."""
     let_in = max((b.fastest for b in case.boundaries.values()), default=0.0)
-    speeds = {"courant": max(let_in, s.rush), "particles": s.speed if effects.moving(case) else 0.0}
-    reach = case.coupling.courant * smallest_cell(case)
-    return {cause: reach / speed for cause, speed in speeds.items() if speed}
+    cell = smallest_cell(case)
+    rates = {
+        "courant": max(let_in / cell, s.rush / cell, crossed),
+        "particles": s.speed / cell if effects.moving(case) else 0.0,
+    }
+    return {cause: case.coupling.courant / rate for cause, rate in rates.items() if rate}
 
 
 def asked(case, s, state) -> dict[str, float]:

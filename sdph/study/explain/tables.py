@@ -62,7 +62,7 @@ def _explain(case, priced, shared=None) -> dict[str, list[dict]]:
 
 
 def _of_grains(case, scales, priced) -> dict[str, list]:
-    limits, expected = estimate.limits(case, scales), estimate.expected(case, scales, priced)
+    limits, expected = estimate.limits(case, scales, priced.crossed if priced else 0.0), estimate.expected(case, scales, priced)
     return {
         "numbers": numbers(scales, case.warm, "heat" in case.effects),
         "materials": materials.rows(case),
