@@ -195,15 +195,15 @@ def _temperature_of_liquid(table: dict) -> float:
 
 
 def _droplets(table: dict, name: str, fluid: Fluid) -> dict:
-    cold, pressure = _of_droplets(table), _pressure(table)
+    (cold, of), pressure = _of_droplets(table), _pressure(table)
     boiling = fluid.at("T", P=pressure, Q=0.0)
     if cold >= boiling:
         raise CaseError(
             f"{name}.fluid: droplets of {cold:g} K, but {fluid.name} boils at {boiling:g} K; make them colder"
         )
     own = table[name]
-    numbers = {key: fluid.at(what, T=cold, P=pressure) for key, what in OF_DROPLETS.items() if key not in own}
-    table = _with(table, name, numbers | {TENSION: fluid.at("I", T=cold, Q=0.0), AT: cold})
+    numbers = {key: fluid.at(what, of, T=cold, P=pressure) for key, what in OF_DROPLETS.items() if key not in own}
+    table = _with(table, name, numbers | {TENSION: fluid.at("I", of, T=cold, Q=0.0), AT: cold})
     if "evaporation" not in table.get("effects", ()):
         return table
     own, numbers = table.get("evaporation", {}), {}
@@ -270,19 +270,21 @@ def _wet_bulb(table: dict, fluid: Fluid, pressure: float) -> float:
     return scipy.optimize.brentq(balance, low, high) if balance(high) > 0.0 else high
 
 
-def _of_droplets(table: dict) -> float:
-    """Temperature [K] that droplets have their numbers at: the mean of what regions and nozzles give them."""
+def _of_droplets(table: dict) -> tuple[float, str]:
+    """Temperature [K] that droplets have their numbers at, the mean of what regions and nozzles give them; and words
+    on where it is from."""
     if AT in table["grains"]:
-        return _number(table["grains"], AT, "grains")
-    given = [
-        entry["temperature_K"]
+        return _number(table["grains"], AT, "grains"), f", grains.{AT}"
+    given = {
+        f"{group}.{name}": _number(entry, "temperature_K", f"{group}.{name}")
         for group in ("particles", "nozzles")
-        for entry in table.get(group, {}).values()
+        for name, entry in table.get(group, {}).items()
         if isinstance(entry, dict) and "temperature_K" in entry
-    ]
+    }
     if not given:
         raise CaseError("grains.fluid: no region or nozzle gives temperature_K, at which its numbers are taken; add it")
-    return fmean(_number({"temperature_K": value}, "temperature_K", "particles") for value in given)
+    told = ", ".join(f"{name} {value:g} K" for name, value in given.items())
+    return fmean(given.values()), f", the mean of temperature_K ({told})"
 
 
 def _pressure(table: dict) -> float:

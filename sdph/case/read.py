@@ -251,17 +251,21 @@ def _with_effects(table: dict, on: tuple[str, ...]) -> dict:
 def _automatic(table: dict) -> tuple[str, ...]:
     """The effects that a case calls for, and those that cannot judge themselves but have a section. Droplets of a fluid
     that is named can evaporate, by heat from the gas: it has all that evaporation asks for, unless the case has what
-    evaporation does not go with."""
+    evaporation does not go with. What is wrong with both is told as of the first."""
     grains = table.get("grains")
-    if isinstance(grains, dict) and isinstance(grains.get("fluid"), str) and grains["fluid"]:
+    if not (isinstance(grains, dict) and isinstance(grains.get("fluid"), str) and grains["fluid"]):
+        return _called(table, ())
+    try:
+        on = _called(table, ("evaporation",))
+        on += ("heat",) * ("evaporation" in on and "heat" not in on)
+        case = from_table(_with_effects(table, on))
+        for name in case.effects:
+            effects.kernel_of(effects.REGISTRY[name], case)
+        return on
+    except CaseError as error:
         with contextlib.suppress(CaseError):
-            on = _called(table, ("evaporation",))
-            on += ("heat",) * ("evaporation" in on and "heat" not in on)
-            case = from_table(_with_effects(table, on))
-            for name in case.effects:
-                effects.kernel_of(effects.REGISTRY[name], case)
-            return on
-    return _called(table, ())
+            return _called(table, ())
+        raise error
 
 
 def _called(table: dict, more: tuple[str, ...]) -> tuple[str, ...]:

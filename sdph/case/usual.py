@@ -114,6 +114,7 @@ def warnings(case) -> list[str]:
                 told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
     told = told or _unlike_its_state(case)  # a slip explains a density too
     told += _absolute(case) + _wider_than_their_mouth(case) + _cut_away(case) + _never_followed(case)
+    told += _never_open(case)
     return told + _hotter_than_their_film(case, table) + _overruled(table)
 
 
@@ -158,6 +159,15 @@ def _wider_than_their_mouth(case) -> list[str]:
                 "at the units of its sizes"
             )
     return told
+
+
+def _never_open(case) -> list[str]:
+    """A line for each nozzle that opens when the run is over."""
+    return [
+        f"nozzles.{name} opens at start_s = {own.start:g}; the run ends at {case.run.end_time:g} s: it gives nothing"
+        for name, own in case.nozzles.items()
+        if own.start >= case.run.end_time
+    ]
 
 
 def _cut_away(case) -> list[str]:

@@ -201,11 +201,12 @@ def cost_of_accuracy(options) -> int:
 
 
 def compare_run(options) -> int:
+    from coupling.openfoam.programs import run as programs
     from sdph.running import output
     from sdph.running.interruption import listening
     from sdph.study import against, compare
 
-    with listening():  # a signal ends OpenFOAM's programs too
+    with listening(), programs.told(_say):  # a signal ends OpenFOAM's programs too
         checks = against.compare(options.run, options.against, _say)
     unlike = against.unlike(options.run, options.against)
     if options.json:

@@ -46,6 +46,7 @@ def stress_cases(options) -> int:
 
 def validate_scene(options) -> int:
     """Check one scene, or all, each in a process of its own."""
+    from coupling.openfoam.programs import run as programs
     from sdph.running.interruption import listening
     from sdph.running.progress import Reporter
     from sdph.study import record, validate
@@ -61,7 +62,7 @@ def validate_scene(options) -> int:
     if _by_workers(options):
         raise CaseError("--workers and --scheduler part the scenes among them; leave them out for one scene")
     overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
-    with listening(), contextlib.closing(Reporter(line=not options.json)) as reporter:
+    with listening(), contextlib.closing(Reporter(line=not options.json)) as reporter, programs.told(reporter.status):
         acted, folder = {}, options.out and options.out / options.scene
         checks = validate.validate(options.scene, overrides, reporter, folder, acted)
     if not options.set:

@@ -57,6 +57,26 @@ def test_droplets_by_name_evaporate_where_effects_are_chosen():
         assert cases.from_table(cases.to_table(case)) == case
 
 
+def test_what_is_wrong_elsewhere_is_told_where_effects_are_chosen():
+    """And not that vapour has no molar mass, which is so without the fluid's evaporation alone."""
+    hot = {"gas": {"fluid": "air", "temperature_K": 450.0}, "run": {"end_time_s": 10.0, "output_interval_s": 1.0}}
+    own = droplet(**hot) | {"effects": "auto", "vapour": {"mass_fraction": 0.01}}
+    del own["evaporation"]
+    assert "evaporation" in cases.from_table(own).effects
+    own["particles"]["droplet"]["temperature"] = 300.0
+    with pytest.raises(CaseError, match="unknown key particles.droplet.temperature;"):
+        cases.from_table(own)
+
+
+def test_the_mean_that_droplets_have_their_numbers_at_is_told():
+    """27 degrees Celsius given for kelvin at one of two."""
+    own = droplet(gas={"fluid": "air", "temperature_K": 300.0})
+    own["particles"]["other"] = own["particles"]["droplet"] | {"temperature_K": 27.0}
+    said = r"Water at 160.075 K, the mean of temperature_K \(particles.droplet 293.15 K, particles.other 27 K\); known"
+    with pytest.raises(CaseError, match=said):
+        cases.from_table(own)
+
+
 def test_evaporation_that_is_chosen_has_what_it_needs(monkeypatch):
     """At equal temperatures heat is of no account by itself, and the wet bulb takes it; a case that has what does not
     go with evaporation, or a fluid of which something is not known, is as it was."""

@@ -98,6 +98,13 @@ def test_sizes_that_are_all_but_cut_off_are_told(given, told):
     assert len(found) == bool(told) and all(f"nozzles.cone.{told}" in line for line in found)
 
 
+def test_a_nozzle_that_opens_when_all_is_over_is_told():
+    """The cone's run ends at 0.05 s."""
+    (told,) = usual.warnings(load("spray_cone", "nozzles.cone.start_s=0.05"))
+    assert told == "nozzles.cone opens at start_s = 0.05; the run ends at 0.05 s: it gives nothing"
+    assert usual.warnings(load("spray_cone", "nozzles.cone.start_s=0.049")) == []
+
+
 @pytest.mark.parametrize(("scene", "told"), [("dam_break", True), ("taylor_bar", False), ("tank_with_flap", True)])
 def test_numbers_of_particles_that_nothing_follows_are_told(scene, told):
     table = cases.parsed(scenes.find(scene)[1]) | {"track": {"particles": [3]}}

@@ -7,6 +7,7 @@ from the tubes straight to the gas is not in it.
 
 from __future__ import annotations
 
+import itertools
 import math
 import shutil
 from pathlib import Path
@@ -57,7 +58,7 @@ def mesh() -> str:
     """The blockMeshDict: a lattice of blocks, and rings of four in those with a tube."""
     places = [(x, y) for y in UP for x in ACROSS]
     across, up = len(ACROSS), len(UP)
-    numbers = [[round((b - a) / CELL) for a, b in zip(edges, edges[1:])] for edges in (ACROSS, UP)]
+    numbers = [[round((b - a) / CELL) for a, b in itertools.pairwise(edges)] for edges in (ACROSS, UP)]
     blocks, arcs, tube = [], [], []
     back = len(places) + 4 * len(TUBES)
     for j in range(up - 1):
@@ -89,7 +90,11 @@ def _around(centre: tuple[float, float], angle: float) -> tuple[float, float]:
 def _text(places, back: int, blocks, arcs, patches: dict[str, list[tuple[int, int]]]) -> str:
     """A plane blockMeshDict, its back 1 m away from its front, whose vertices are counted on from `back`."""
     depths = 0.0, 1.0
-    lines = ["FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; }", "scale 1;", "vertices ("]
+    lines = [
+        "FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; }",
+        "scale 1;",
+        "vertices (",
+    ]
     lines += [f"({x!r} {y!r} {z!r})" for z in depths for x, y in places]
     lines += [");", "blocks ("]
     for corners, along, through in blocks:

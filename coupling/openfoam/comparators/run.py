@@ -39,7 +39,6 @@ from coupling.openfoam.comparators.reference import Reference, keep, key, load
 from coupling.openfoam.comparators.start import Start, digest_of_mesh
 from coupling.openfoam.programs import barrier, build, install
 from coupling.openfoam.programs import run as programs
-from coupling.openfoam.programs.run import Progress
 from coupling.openfoam.start_fields import EMPTY
 from sdph.case.sections import Case, Coupling
 from sdph.scenes import paths
@@ -109,22 +108,21 @@ def run_two_fluid(
     case: Case,
     folder: Path,
     ranks: int = 1,
-    progress: Progress | None = None,
     courant: float = two_fluid_numbers.COURANT,
     start: Start | None = None,
     again: bool = False,
 ) -> Reference:
     """Run twoPhaseEulerFoam on the case in `folder`, or take what it gave from the cache.
 
-    `progress(time, end)` [s] hears where the run is; `courant` is the largest Courant number of inlets and of grains
-    at the start. `start` says how the grains stand then, and on which mesh; without it the scene's template does.
-    `again`: run whatever the cache has. `GasError` when OpenFOAM fails.
+    `courant` is the largest Courant number of inlets and of grains at the start. `start` says how the grains stand
+    then, and on which mesh; without it the scene's template does. `again`: run whatever the cache has. `GasError` when
+    OpenFOAM fails.
     """
     mesh = poly_mesh.read(start.mesh) if start and start.mesh else None
     numbers = two_fluid_numbers.macros(case, courant, mesh)
     files = {TWO_FLUID.macros: _macros(TWO_FLUID.macros, numbers)}
     try:
-        return _run(TWO_FLUID, case, folder, ranks, files, progress, start, start.mesh if start else None, again)
+        return _run(TWO_FLUID, case, folder, ranks, files, start, start.mesh if start else None, again)
     except GasError as error:
         step = float(numbers.get("time_step") or numbers["first_time_step"])
         raise GasError(f"{error}{remedies.remedy(str(error), mesh, step)}") from None
@@ -134,7 +132,6 @@ def run_droplets(
     case: Case,
     folder: Path,
     drops: Drops | None = None,
-    progress: Progress | None = None,
     courant: float = droplet_numbers.COURANT,
     mesh: Path | None = None,
 ) -> Reference:
@@ -150,7 +147,7 @@ def run_droplets(
     if own and case.dimensions == 2:
         depth = float(np.ptp(own.points[:, 2]))
     files = _droplet_files(case, drops, courant, own, depth)
-    found = _run(DROPLETS, _less(case), folder, 1, files, progress, mesh=mesh)
+    found = _run(DROPLETS, _less(case), folder, 1, files, mesh=mesh)
     return found if depth == DEPTH else droplet_log.by_the_metre(found, depth)
 
 
@@ -177,8 +174,8 @@ def _less(case: Case) -> Case:
 
 
 def _run(
-    solver: Solver, case: Case, folder: Path, ranks: int, files: dict[str, str], progress: Progress | None,
-    start: Start | None = None, mesh: Path | None = None, again: bool = False,
+    solver: Solver, case: Case, folder: Path, ranks: int, files: dict[str, str], start: Start | None = None,
+    mesh: Path | None = None, again: bool = False,
 ) -> Reference:  # fmt: skip
     refuse_reference(case, folder)
     known.refuse_no_output(case)
@@ -200,7 +197,7 @@ def _run(
         _cells(folder, environment)
         two_fluid_fields.tell_start(folder, start)
     began = time.perf_counter()
-    programs.run_solver(program, folder, folder / f"log.{solver.name}", case.run.end_time, progress, environment, ranks)
+    programs.run_solver(program, folder, folder / f"log.{solver.name}", case.run.end_time, environment, ranks)
     reference = _read(solver, folder, environment, time.perf_counter() - began)
     keep(reference, kept)
     return reference

@@ -15,13 +15,14 @@ from coupling.gas import GasError
 from coupling.openfoam.programs import barrier, install
 
 LOOK = 0.2  # s between two looks at a running solver
+TELL = 10.0  # s between two lines on where it is
 TAIL = 20000  # bytes of a log that are looked through
 
 # lines of a solver that goes on well
 CHATTER = re.compile(r"residual|continuity errors|^(Time = |ExecutionTime|Courant|PIMPLE|//)|^\W*$")
 MEMORY = " (by somebody, or by the system because memory ran out)"
 
-Progress = Callable[[float, float], None]
+_HEARS: list[Callable[[str], None]] = []  # who hears of running solvers
 
 
 def run(command: list[str], folder: Path, log: Path, environment: dict[str, str] | None = None) -> None:
@@ -34,6 +35,16 @@ def run(command: list[str], folder: Path, log: Path, environment: dict[str, str]
 
 
 @contextlib.contextmanager
+def told(tell: Callable[[str], None]) -> Iterator[None]:
+    """Within the context `tell` hears every ten seconds where a solver is, and how long it will take."""
+    _HEARS.append(tell)
+    try:
+        yield
+    finally:
+        _HEARS.remove(tell)
+
+
+@contextlib.contextmanager
 def starting(program: str) -> Iterator[None]:
     """Turn the error of a program that is not there, or not for this machine, into a `GasError`."""
     try:
@@ -42,35 +53,41 @@ def starting(program: str) -> Iterator[None]:
         raise GasError(f"{program} cannot be started: {error.strerror}; sdph doctor says what is missing") from None
 
 
-def run_solver(
-    solver: str, folder: Path, log: Path, end: float, progress: Progress | None, environment: dict[str, str], ranks: int
-) -> None:
-    """Run a solver to its end, on `ranks` processes; `progress(time, end)` [s] hears where it is."""
+def run_solver(solver: str, folder: Path, log: Path, end: float, environment: dict[str, str], ranks: int) -> None:
+    """Run a solver to its end [s], on `ranks` processes."""
     if ranks == 1:
-        return _watch([solver], folder, log, end, progress, environment)
+        return _watch([solver], folder, log, end, environment)
     run(["decomposePar", "-force"], folder, folder / "log.decomposePar", environment)
-    _watch([*install.mpirun(ranks), solver, "-parallel"], folder, log, end, progress, environment)
+    _watch([*install.mpirun(ranks), solver, "-parallel"], folder, log, end, environment)
     run(["reconstructPar"], folder, folder / "log.reconstructPar", environment)
 
 
-def _watch(
-    command, folder: Path, log: Path, end: float, progress: Progress | None, environment: dict[str, str]
-) -> None:
+def _watch(command, folder: Path, log: Path, end: float, environment: dict[str, str]) -> None:
     with log.open("wb") as out, starting(command[0]):
         process = subprocess.Popen(
             command, cwd=folder, env=environment, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
         )
+    begun = last = time.perf_counter()
     try:
         while process.poll() is None:
             time.sleep(LOOK)
-            if progress:
-                progress(solver_time(log), end)
+            if time.perf_counter() - last > TELL:
+                last = time.perf_counter()
+                _tell(log, end, last - begun)
     finally:
         _end(process)
     if process.returncode:
         raise GasError(
             f"{command[0]} {ending(process.returncode)} at {solver_time(log):g} s: {reason(log)} (log: {log})"
         )
+
+
+def _tell(log: Path, end: float, spent: float) -> None:
+    """Say where the solver of a log is, `spent` [s] after it began."""
+    now = solver_time(log)
+    left = f", {spent * (end - now) / now:.0f} s left" if now > 0.0 else ""
+    for tell in _HEARS:
+        tell(f"{log.name.removeprefix('log.')}: t = {now:.4g} of {end:g} s{left}")
 
 
 def _end(process: subprocess.Popen) -> None:

@@ -164,12 +164,24 @@ def count_once(dummies, of_mesh, beyond, places, rows):
 
 @serial
 def part(dummies, of_mesh, spacing, places, wall_rows, rows):
-    """Take the neighbours out of the particles' rows that stand on the other side of a thin wall."""
-    for i in range(len(places[0])):
+    """Take the neighbours out of the particles' rows that stand on the other side of a thin wall. A way that is shorter
+    than what lies between either end and the planes before it goes through none of them."""
+    x, y, z = places
+    clear = np.full(len(x), math.inf)
+    for i in range(len(x)):
+        for k in range(wall_rows.number[i]):
+            w = entry(wall_rows, i, k)
+            if of_mesh[w] and dummies.depth[w] <= spacing:
+                over = height(dummies, w, x[i], y[i], z[i])
+                clear[i] = min(clear[i], over if over > 0.0 else math.inf)
+    for i in range(len(x)):
         kept = 0
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
-            if not parted(dummies, of_mesh, spacing, places, wall_rows, i, j):
+            dx, dy, dz, least = x[j] - x[i], y[j] - y[i], z[j] - z[i], min(clear[i], clear[j])
+            if dx * dx + dy * dy + dz * dz < least * least or not parted(
+                dummies, of_mesh, spacing, places, wall_rows, i, j
+            ):
                 rows.entries[place(rows, i, kept)] = j
                 kept += 1
         shorten(rows, i, kept)

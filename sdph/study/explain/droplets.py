@@ -16,6 +16,8 @@ OF_HEAT = {
 }
 # vapour goes by Ranz & Marshall's Sherwood number whatever the law of heat is
 WARM = "more heat than fits to the vapour: the wet bulb is too hot; heat.law = 'ranz_marshall' for few droplets"
+# what makes a fluid of grains, that pushes and rubs as one; friction is of grains that touch
+OF_A_FLUID = "granular_pressure", "granular_viscosity", "granular_temperature", "artificial_viscosity"
 
 
 def numbers(s, heated: bool) -> list[tuple]:
@@ -45,6 +47,19 @@ def numbers(s, heated: bool) -> list[tuple]:
         dry = "those that meet a wall stay droplets: there is no film, splash or sticking"
         rows.append(("way of droplets / gap to a wall", s.to_walls.over_gap, 1.0, dry, "geometry"))
     return rows
+
+
+def flying(s, on: tuple[str, ...]) -> list[str]:
+    """A line where effects of a fluid of grains are `on`, and grains with scales `s` fly past all their neighbours
+    before they meet another (Knudsen number above 1, where no gas is a continuum: Bird 1994, ch. 1)."""
+    own = [name for name in OF_A_FLUID if name in on]
+    if not own or s.free_path <= s.case.smoothing_length:
+        return []
+    return [
+        f"grains fly {s.free_path:.2g} m between collisions, {s.free_path / s.case.smoothing_length:.2g} smoothing "
+        f"lengths, and are no fluid; {', '.join(own)} make one of them, which holds streams back and drives them "
+        "apart: leave out of effects what is not called for"
+    ]
 
 
 def boiling(case) -> list[str]:

@@ -62,7 +62,8 @@ def _explain(case, priced, shared=None) -> dict[str, list[dict]]:
 
 
 def _of_grains(case, scales, priced) -> dict[str, list]:
-    limits, expected = estimate.limits(case, scales, priced.crossed if priced else 0.0), estimate.expected(case, scales, priced)
+    limits = estimate.limits(case, scales, priced.crossed if priced else 0.0)
+    expected = estimate.expected(case, scales, priced)
     return {
         "numbers": numbers(scales, case.warm, "heat" in case.effects),
         "materials": materials.rows(case),
@@ -87,7 +88,8 @@ def warnings(case, scales=None, priced=None) -> list[str]:
 def _of_gas(case, scales, priced) -> list[str]:
     """Notes on grains in a gas."""
     edges = priced and priced.edges
-    own = *eddies.warnings(scales), *eddies.too_fast(case), *droplets.boiling(case)
+    thin = droplets.flying(scales, case.effects)
+    own = *eddies.warnings(scales), *eddies.too_fast(case), *droplets.boiling(case), *thin
     return [*estimate.warnings(case, edges), *own]
 
 

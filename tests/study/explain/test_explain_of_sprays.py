@@ -125,3 +125,19 @@ def test_particles_are_judged_by_the_largest_drops_that_any_nozzle_gives():
     (name,) = case_of("spray_cone").nozzles
     case = case_of("spray_cone", f"nozzles.{name}.diameter_mm=40", f"nozzles.{name}.diameter_std_mm=0")
     assert any(text.startswith("spacing / grain = 0.2") for text in estimate.warnings(case))
+
+
+FLUID = 'effects=["inflow","outflow","gravity","drag","heat","evaporation","friction","granular_pressure"]'
+
+
+def test_effects_of_a_fluid_are_told_where_droplets_hardly_meet():
+    """In the cone path/h is 1.3; at twice the rate it is below 1. Friction alone is of grains that touch."""
+    (told,) = [text for text in tables.warnings(case_of("spray_cone", FLUID)) if "are no fluid" in text]
+    assert "granular_pressure make" in told and "friction" not in told and "1.3 smoothing lengths" in told
+    (name, nozzle), *_ = case_of("spray_cone").nozzles.items()
+    for fewer in (
+        (FLUID, f"nozzles.{name}.rate_kg_s={2.0 * nozzle.rate}"),
+        (),
+        (FLUID.replace("granular_p", "gas_p"),),
+    ):
+        assert not [text for text in tables.warnings(case_of("spray_cone", *fewer)) if "are no fluid" in text]
