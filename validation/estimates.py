@@ -196,7 +196,7 @@ def counted(name: str, scene: str, case, row: dict) -> tuple:
 
 
 def explained(scene: str, case) -> dict[str, list[dict]]:
-    """What `sdph explain` tells, which looks at the mesh of a bed that has one of its own."""
+    """Tables of `sdph explain`, which looks at the mesh of a bed that has one of its own."""
     if scene not in WHOLE:
         return tables.explain(case)
     with rehearsal.rehearsed(case, driver.template_of(case, scene)) as (seen, mesh, _):

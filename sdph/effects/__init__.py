@@ -2,7 +2,18 @@
 
 import dataclasses
 
-from sdph.effects.around import drain, electric_field, frame, gravity, inflow, outflow, tank, wall_heat, walls
+from sdph.effects.around import (
+    by_nozzle,
+    drain,
+    electric_field,
+    frame,
+    gravity,
+    inflow,
+    outflow,
+    tank,
+    wall_heat,
+    walls,
+)
 from sdph.effects.effect import NO_LIMIT, OFF, Effect, kernel_of
 from sdph.effects.gas import (
     break_up,
@@ -131,7 +142,8 @@ def in_ledger(case) -> tuple[tuple[Column, ...], tuple[str, ...]]:
     """Columns that effects have in the ledger, on or off; names of those whose sums this case tells."""
     on = (row for name, row in REGISTRY.items() if name in case.effects)
     told = dict.fromkeys(name for row in on for name in row.sums)
-    return tuple(column for row in REGISTRY.values() for column in row.columns), tuple(told)
+    columns = tuple(column for row in REGISTRY.values() for column in row.columns)
+    return (*columns, *by_nozzle.in_ledger(case)), (*told, *by_nozzle.names(case))
 
 
 def without_input(matter: str) -> dict:

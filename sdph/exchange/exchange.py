@@ -27,6 +27,7 @@ import numpy as np
 from coupling.transfer import gather
 from sdph import effects
 from sdph.effects import OFF
+from sdph.effects.around import by_nozzle
 from sdph.effects.gas import break_up, film, radiation, sizes, turbulent_dispersion
 from sdph.engine import arrays
 from sdph.engine.state import GRAIN, by_material, lengths
@@ -219,9 +220,8 @@ class Exchange:
             self.losing.settle(state, handed)
         if handed.eddies is not None:
             turbulent_dispersion.apply(state, handed.eddies)
-        if not self.parameters["break_up"]:
-            return dict(break_up.NOTHING_BROKEN)
-        return break_up.apply(self.parameters["break_up"], state, *handed.around, handed.dt)
+        own, lost = self.parameters["break_up"], by_nozzle.lost(self.case, state, handed.loss)
+        return lost | (break_up.apply(own, state, *handed.around, handed.dt) if own else break_up.NOTHING_BROKEN)
 
     def _push(self, handed: Handed, velocity) -> tuple[np.ndarray, np.ndarray]:
         """Impulse (N, 3) [kg m/s] of drag and held force, and the force (C, 3) [N/m3] by which the gas gave it."""

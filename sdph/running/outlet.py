@@ -25,7 +25,7 @@ class Outlet:
     def __init__(self, case, path: Path | None):
         self.case, self.table = case, Table(path)
         self.arrays, self.exits = carried(case), outflow.exits(case)
-        self.left = 0
+        self.left, self.nozzles = 0, ("", *case.nozzles)
         self.sums, self.volume = (np.zeros((len(self.exits), count)) for count in (4, sizing.BINS))
 
     def start(self) -> None:
@@ -53,6 +53,8 @@ class Outlet:
         way = outflow.through(self.case, gone)
         found = {"time_s": [time] * len(gone.x), "particle": gone.ident.tolist()}
         found["outlet"] = [self.exits[number] for number in way]
+        if "nozzle" in self.arrays:
+            found["nozzle"] = [self.nozzles[number] for number in gone.nozzle]
         axes = "xyz"[: self.case.dimensions]
         found |= {f"{a}_m": values.tolist() for a, values in zip(axes, (gone.x, gone.y, gone.z))}
         found |= {f"velocity_{a}_m_s": values.tolist() for a, values in zip(axes, (gone.u, gone.v, gone.w))}

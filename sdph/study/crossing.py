@@ -1,4 +1,4 @@
-"""How fast gas crosses the cells of a mesh that a case brings, foretold by its flow without eddies through the bed."""
+"""Foresight of how often gas crosses the cells of a mesh of its own: its flow without eddies through the bed."""
 
 from __future__ import annotations
 

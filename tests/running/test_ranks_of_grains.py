@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import pyvista
 
+from tests.effects.around.test_by_nozzle import SECOND
 from tests.of_ranks import SDPH, WITH_MPI, assert_same_bits, fine, particles, shared_by
 
 pytestmark = WITH_MPI
@@ -36,7 +37,7 @@ CASES = {  # name -> processes, scene and options: each effect at least once, in
     "disc at rest, heated, probes": (2, "disc_cluster", *EMBEDDED, "--until", "2e-4"),
     "jet of a nozzle": (2, "evaporating_jet", *EMBEDDED, "--until", "0.02"),
     "spray: evaporates, leaves": (2, *SPRAY, "--until", "0.02", "--set", "domain.size_m=[0.3,0.3,0.1]", "--set",
-                                  "nozzles.cone.centre_m=[0.15,0.15,0.1]"),
+                                  "nozzles.cone.centre_m=[0.15,0.15,0.1]", "--set", SECOND),
     "drops that break": (2, *SPRAY, "--until", "0.002", *on(*SPRAYED, "break_up"), "--set",
                          "grains.surface_tension_N_m=0.02", "--set", "break_up.liquid_viscosity_Pa_s=1e-3", "--set",
                          "break_up.products=chi_squared", "--set", "nozzles.cone.speed_m_s=100"),

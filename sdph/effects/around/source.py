@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from sdph.effects.around import rates, sizes
+from sdph.effects.around import by_nozzle, rates, sizes
 from sdph.effects.around.drops import Replays
 from sdph.effects.around.streams import (
     ROUND_OFF,
@@ -43,7 +43,7 @@ class Source:
     Several sizes (sdph.effects.around.sizes) are as many streams at one place.
     """
 
-    KEPT = ("layers", "replays", "next_ident", "mass", "energy", "motion", "momentum")  # see sdph.engine.kept
+    KEPT = ("layers", "replays", "next_ident", "mass", "energy", "motion", "masses", "momentum")  # see sdph.engine.kept
 
     def __init__(self, case, names, first_ident: int):
         self.case, self.names, self.pitch = case, {*names, *ARRAYS}, case.resolution.spacing
@@ -76,6 +76,7 @@ class Source:
         self.replays = Replays(case)
         self.layers, self.next_ident = np.zeros(len(self.of), np.int64), first_ident
         self.mass, self.energy, self.motion = 0.0, 0.0, 0.0  # through the mouths [kg], heat and motion [J]
+        self.masses = np.zeros(len(self.nozzles))  # the same of each nozzle [kg]
         self.momentum = np.zeros(3)  # [kg m/s]
 
     @property
@@ -256,6 +257,7 @@ class Source:
     def _count(self, out) -> None:
         """Count what has come in."""
         self.mass += float(out.mass.sum())
+        self.masses = self.masses + by_nozzle.masses(self.case, out.nozzle, out.mass)
         if len(out.temperature):
             warmth, capacity = out.mass * out.temperature, out.grain_capacity
             of_one = self.case.grains.heat_capacity

@@ -167,24 +167,32 @@ def part(dummies, of_mesh, spacing, places, wall_rows, rows):
     """Take the neighbours out of the particles' rows that stand on the other side of a thin wall. A way that is shorter
     than what lies between either end and the planes before it goes through none of them."""
     x, y, z = places
-    clear = np.full(len(x), math.inf)
+    clear = clearances(dummies, of_mesh, spacing, places, wall_rows)
+    for i in range(len(x)):
+        kept = 0
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            way = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2 + (z[j] - z[i]) ** 2
+            through = way >= clear[i] ** 2 or way >= clear[j] ** 2
+            if not (through and parted(dummies, of_mesh, spacing, places, wall_rows, i, j)):
+                rows.entries[place(rows, i, kept)] = j
+                kept += 1
+        shorten(rows, i, kept)
+
+
+@serial
+def clearances(dummies, of_mesh, spacing, places, wall_rows):
+    """Height (N,) [m] of each particle over the nearest plane of a surface point that it is in front of; inf: none."""
+    x, y, z = places
+    found = np.full(len(x), math.inf)
     for i in range(len(x)):
         for k in range(wall_rows.number[i]):
             w = entry(wall_rows, i, k)
             if of_mesh[w] and dummies.depth[w] <= spacing:
                 over = height(dummies, w, x[i], y[i], z[i])
-                clear[i] = min(clear[i], over if over > 0.0 else math.inf)
-    for i in range(len(x)):
-        kept = 0
-        for k in range(rows.number[i]):
-            j = entry(rows, i, k)
-            dx, dy, dz, least = x[j] - x[i], y[j] - y[i], z[j] - z[i], min(clear[i], clear[j])
-            if dx * dx + dy * dy + dz * dz < least * least or not parted(
-                dummies, of_mesh, spacing, places, wall_rows, i, j
-            ):
-                rows.entries[place(rows, i, kept)] = j
-                kept += 1
-        shorten(rows, i, kept)
+                if 0.0 < over < found[i]:
+                    found[i] = over
+    return found
 
 
 @serial

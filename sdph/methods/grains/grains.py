@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sdph import effects
+from sdph.effects.around import by_nozzle
 from sdph.effects.around.outflow import leaving, refuse_to_leave
 from sdph.effects.around.source import Source
 from sdph.effects.gas import micro_explosion
@@ -20,7 +21,9 @@ from sdph.methods.grains import aboard, account, start
 from sdph.methods.grains.history import Warmed, of_materials, tracked
 from sdph.methods.grains.method import Stepper
 
-CAME_IN = ("mass", "energy", "motion", "momentum")  # what a source counts
+# arrays of the state that are in fields
+SHOWN = "ident", "kind", "mass", "density", "temperature", "diameter", "material", "nozzle", "theta", "sealed"
+CAME_IN = ("mass", "energy", "motion", "masses", "momentum")  # what a source counts
 APART = ("friction", "granular_pressure")  # effects that keep dense grains apart
 PACKED = 1.02  # of the packing limit: less is noise of single particles; our choice
 CROWDED = 1.2  # of it, in a cell of the gas, whose kernel sees an even bed up to 8 % off where cells jump; our choice
@@ -46,7 +49,7 @@ class Grains:
         self.source = Source(case, names, len(state.x) + 1) if self.parameters["inflow"] else None
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
         self.world, self.stepper.domain.parted = self.stepper.world, own.number > 1
-        self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), NOTHING_LEFT
+        self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), self._nothing_left()
         self.pushed = Pushed("grain", "friction", self.stepper.parts, case.dimensions)
         self.warmed = Warmed(self.stepper.hot)
         self.gone = None  # State of what has left in the window
@@ -99,7 +102,7 @@ class Grains:
         """Remember the state to go back to, before a window; the particles go where the case has them."""
         aboard.board(self.stepper)
         self.stepper.guard.begin(self)
-        self.came, self.left, self.gone = self._came_in(), NOTHING_LEFT, None
+        self.came, self.left, self.gone = self._came_in(), self._nothing_left(), None
         self.begun = self.time
 
     def force(self, warmth, push, damping) -> None:
@@ -182,7 +185,8 @@ class Grains:
         found = self.world.sums(account.columns(self.stepper.account) | self.torn | self.left)
         names = ("injected_kg", "injected_J", "injected_motion_J")
         found |= {name: now - before for name, now, before in zip(names, self._came_in(), self.came)}
-        momentum = self._came_in()[-1] - self.came[-1]
+        masses, momentum = (now - before for now, before in zip(self._came_in()[-2:], self.came[-2:]))
+        found |= by_nozzle.columns(self.case, "injected", masses)
         found |= {key: found[key] + value for key, value in vector("impulse_of_inflow", momentum).items()}
         return found
 
@@ -221,7 +225,7 @@ class Grains:
             return points
         points["velocity"] = particles.velocities(state)
         points["alpha_p"] = state.density / particles.by_material(state.grain_density, self.case.grains.density)
-        for name in ("ident", "kind", "mass", "density", "temperature", "diameter", "material", "theta", "sealed"):
+        for name in SHOWN:
             if len(getattr(state, name)):
                 points[name] = getattr(state, name)
         return points
@@ -252,7 +256,10 @@ class Grains:
     def _came_in(self):
         """Mass [kg], enthalpy, energy of motion [J] and momentum [kg m/s] through the nozzles since the start."""
         own = self.source
-        return tuple(getattr(own, name) for name in CAME_IN) if own else (0.0, 0.0, 0.0, np.zeros(3))
+        return tuple(getattr(own, name) for name in CAME_IN) if own else (0.0, 0.0, 0.0, np.zeros(0), np.zeros(3))
+
+    def _nothing_left(self) -> dict[str, float]:
+        return NOTHING_LEFT | by_nozzle.columns(self.case, "left", np.zeros(len(self.case.nozzles)))
 
     def _tell_packed(self) -> None:
         """Tell once where grains are packed denser than their limit: something that keeps them apart is missing."""
@@ -288,4 +295,6 @@ class Grains:
         momentum = np.einsum("i,ij->j", left.mass, particles.velocities(left))
         found = {"left_kg": float(left.mass.sum()), "left_J": float(self._enthalpy(left).sum())}
         found["left_motion_J"] = particles.energy_of_motion(left)
+        if self.source:
+            found |= by_nozzle.columns(self.case, "left", by_nozzle.masses(self.case, left.nozzle, left.mass))
         return found | vector("impulse_of_outflow", -momentum)

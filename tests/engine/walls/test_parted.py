@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from sdph.engine.rows import Rows
+from sdph.engine.rows import LANES, Rows
 from sdph.engine.walls import mesh
 from sdph.engine.walls.dummies import Dummies
 
@@ -11,15 +13,45 @@ SPACING, DEPTH = 0.1, 0.08
 AT = np.array([0.3, -0.2, 1.5])  # m, the point of the surface
 
 
-def pair_of(walls, ends):
-    """Whether a pair at `ends` (2, 3) [m] is parted by points of a surface, each with its normal."""
+def seen_by(walls, points):
+    """What `parted` asks of particles at `points` (N, 3) [m] that see all points of a surface, each with its normal."""
     columns = [np.array([(*(at - DEPTH * np.array(n)), *n) for at, n in walls]).T]
     fixed = ([value] * len(walls) for value in (DEPTH, 1.0, 0.0, 0.0, 0.0, SPACING**3))
     wall = Dummies(*np.ascontiguousarray(columns[0]), *(np.array(row) for row in fixed))
-    seen = np.tile(np.arange(len(walls), dtype=np.uint32), 2)
-    rows = Rows(seen, len(walls) * np.arange(2), np.full(2, len(walls), np.int32))
-    places = tuple(np.ascontiguousarray(column) for column in np.array(ends).T)
-    return mesh.parted(wall, np.ones(len(walls), bool), SPACING, places, rows, 0, 1)
+    places = tuple(np.ascontiguousarray(column) for column in np.array(points).T)
+    return wall, np.ones(len(walls), bool), SPACING, places, every(len(walls), len(points))
+
+
+def every(columns, count):
+    """Rows of `count` particles, each with all numbers up to `columns`."""
+    room = columns + LANES  # rows end in the particle itself
+    seen = np.repeat(np.arange(count, dtype=np.uint32)[:, None], room, axis=1)
+    seen[:, :columns] = np.arange(columns)
+    return Rows(seen.ravel(), room * np.arange(count), np.full(count, columns, np.int32))
+
+
+def pair_of(walls, ends):
+    """Whether a pair at `ends` (2, 3) [m] is parted by points of a surface, each with its normal."""
+    return mesh.parted(*seen_by(walls, ends), 0, 1)
+
+
+@settings(max_examples=40, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), apart=st.floats(0.2, 3.0))
+def test_rows_lose_those_pairs_that_are_parted_and_no_others(seed, apart):
+    """A plate of points with both faces, tilted, and particles about it: most pairs are too near to need a look."""
+    rng = np.random.default_rng(seed)
+    normal = rng.normal(size=3)
+    normal /= np.linalg.norm(normal)
+    along = np.linalg.svd(normal[None])[2][1:]
+    ticks = SPACING * np.array([(i, j) for i in range(-2, 3) for j in range(-2, 3)])
+    walls = [(AT + side * 0.02 * normal + tick @ along, side * normal) for side in (1.0, -1.0) for tick in ticks]
+    points = AT + SPACING * apart * rng.normal(size=(12, 3))
+    asked = seen_by(walls, points)
+    rows = every(len(points), len(points))
+    mesh.part(*asked, rows)
+    for i in range(len(points)):
+        left = [j for j in range(len(points)) if not mesh.parted(*asked, i, j)]
+        assert rows.entries[rows.start[i] : rows.start[i] + rows.number[i]].tolist() == left
 
 
 def across(normal, aside):
