@@ -29,7 +29,7 @@ from sdph.running import inputs, metrics, vessel
 from sdph.schema import CaseError
 from sdph.study import closed_vessels, crossing
 from sdph.study import memory as room
-from sdph.study.explain import estimate
+from sdph.study.explain import prices
 
 # method -> what makes all of it that a run begins with
 MADE = {
@@ -44,11 +44,11 @@ def priced(case, template: Path):
     if "grains" not in case.matters or expected(case.only("grains")) == "embedded":
         return None
     if not (template / poly_mesh.FOLDER).is_dir():
-        return estimate.by_openfoam(math.prod(cells(case)))
+        return prices.by_openfoam(math.prod(cells(case)))
     mesh = poly_mesh.read(template)
     grains = case.only("grains")
     crossed = crossing.among_grains(grains, mesh, _held(grains, cell_sizes.middles(mesh)))
-    return estimate.by_openfoam(len(mesh.volumes))._replace(edges=_edges(grains, mesh), crossed=crossed)
+    return prices.by_openfoam(len(mesh.volumes))._replace(edges=_edges(grains, mesh), crossed=crossed)
 
 
 def _edges(case, mesh) -> tuple[float, float]:

@@ -17,7 +17,7 @@ from sdph.methods.liquids.method import reach
 from sdph.methods.liquids.start import parts_of
 from sdph.methods.mps import start as pools
 from sdph.running import ranks
-from sdph.study.explain import estimate, mps
+from sdph.study.explain import estimate, mps, prices
 
 # work of a copy over that of a particle, and time [s] of a step for messages: both from two runs on two ranks of one
 # machine (benchmarks/README.md)
@@ -36,7 +36,7 @@ def _copies(places, owner, number: int, far: float, period) -> np.ndarray:
 
 def _of(case) -> tuple:
     """State at the start, distance [m] within which copies are made, period (d,) [m], us of a particle's step."""
-    speed, skin = estimate.speed(), case.resolution.neighbour_skin
+    speed, skin = prices.speed(), case.resolution.neighbour_skin
     if case.incompressible:
         far = reach_of(case.method.sees(case) * case.resolution.spacing, skin)
         return pools.fill(case), far, case.liquid_period, mps.ROWS * speed.liquid

@@ -1,6 +1,7 @@
 """`sdph explain`: what a case calls for, what limits its steps, and what it will cost, before it runs.
 
 estimate       limits, memory and time
+prices         time of a particle, a cell, a window, as measured
 pace           windows and sub-steps
 feed           heat of what nozzles feed
 lockstep       steps of a liquid with bodies in it

@@ -18,7 +18,7 @@ from sdph.case import gas_cells
 from sdph.case import read as cases
 from sdph.running.alone import Alone
 from sdph.running.simulation import Simulation
-from sdph.study.explain import estimate, mps
+from sdph.study.explain import mps, prices
 
 ROUNDS = 7  # the least of so many counts
 WINDOWS = 4  # of a case without a gas, of some 20 steps each; the first compiles
@@ -111,7 +111,7 @@ def alone(case, report=print) -> list[dict]:
 
 def _of_liquid(case, method: str) -> float:
     """Time of a particle of a liquid and a step over the one that `Speed` has."""
-    return mps.ROWS if method == "mps" else estimate.of_liquid(case) / estimate.speed().liquid
+    return mps.ROWS if method == "mps" else prices.of_liquid(case) / prices.speed().liquid
 
 
 def table(report=print) -> list[dict]:
@@ -127,8 +127,8 @@ def table(report=print) -> list[dict]:
             | _leaves(on, off)
         )
         report(f"{name}: {best_on - best_off:.3f} us")
-    ratio = min(row["with all [us]"] for row in rows) / estimate.SHIPPED.moving  # the rest in the shipped proportion
-    keep(**{key: getattr(estimate.SHIPPED, key) * ratio for key in ("moving", "resting", "cell", "window")})
+    ratio = min(row["with all [us]"] for row in rows) / prices.SHIPPED.moving  # the rest in the shipped proportion
+    keep(**{key: getattr(prices.SHIPPED, key) * ratio for key in prices.OF_GRAINS})
     return rows
 
 
@@ -148,6 +148,6 @@ def _leaves(on, off) -> dict:
 
 def keep(**times) -> None:
     """Remember times [us] of this machine for the estimates of `sdph explain`."""
-    known = estimate.speed()._asdict() | times | {"measured": f"this machine, {time.strftime('%Y-%m-%d')}"}
-    estimate.MEASURED.parent.mkdir(parents=True, exist_ok=True)
-    estimate.MEASURED.write_text(json.dumps(known))
+    known = prices.speed()._asdict() | times | {"measured": f"this machine, {time.strftime('%Y-%m-%d')}"}
+    prices.MEASURED.parent.mkdir(parents=True, exist_ok=True)
+    prices.MEASURED.write_text(json.dumps(known))

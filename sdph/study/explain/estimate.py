@@ -3,9 +3,7 @@ two."""
 
 from __future__ import annotations
 
-import json
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -13,15 +11,15 @@ from sdph import effects
 from sdph.case import gas_cells
 from sdph.case.judge import scales_of
 from sdph.effects.around import sizes
+from sdph.effects.gas import sizes as of_gas
 from sdph.effects.gas.drag import filter_width
-from sdph.engine import device as environment
 from sdph.engine import state as particles
 from sdph.engine.clock import alone
 from sdph.exchange.window import ANSWER, opening
 from sdph.laws import kernels
 from sdph.methods.grains import start, ways
 from sdph.methods.grains.sound import SWING
-from sdph.study.explain import feed, pace
+from sdph.study.explain import feed, pace, prices
 
 ROW = 8  # bytes of a number and of an entry of a neighbour row
 SCRATCH = 30  # arrays of the length of the particles that a step makes
@@ -67,64 +65,11 @@ ADDED_MASS_WHY = (
 OWN_FIELD = 0.1  # our choice: of a force that is left out
 OWN_FIELD_WHY = "charged grains drive each other apart, which is left out; charge or number of them must be less"
 THICKENING = "the share of a cell's gas that comes as vapour, or of its oxidant that burns: an estimate"
-MEASURED = environment.CACHE / "speed.json"  # of this machine, by `sdph explain --measure`
-
-
-# Time of a particle in space over that of one in a plane: 113 neighbours in place of 28; measured in a round bed. So
-# much more a cell of the embedded gas takes, too: 3.6 to 5 us in place of 0.8 to 1.4
-IN_SPACE = 2.5
-
-
-class Priced(NamedTuple):
-    """A gas solver, its cells, its time for each window and for each cell of it [us], and, of a mesh that the case
-    brings, shortest and longest edge [m] of the cells where grains stand, and how often in a second [1/s] gas crosses
-    one there, at most."""
-
-    name: str
-    cells: int
-    window: float
-    cell: float
-    edges: tuple[float, float] | None = None
-    crossed: float = 0.0
-
-
-def by_openfoam(cells: int) -> Priced:
-    """Time of sdphGasFoam: 3 ms of each window go into messages and tables, however few cells (measured with 160), and
-    2 us into each cell of it (1.4 to 1.9 with 5000 to 80 000)."""
-    return Priced("OpenFOAM gas", cells, 3000.0, 2.0)
-
-
-class Speed(NamedTuple):
-    """Time of one particle and sub-step, moving or at rest, of a liquid, of a solid, of one cell and window of the
-    embedded gas, and of a window of it and of the exchange however few cells there are [us]."""
-
-    moving: float
-    resting: float
-    liquid: float
-    solid: float
-    cell: float
-    window: float
-    measured: str
-
-
-# One core of the machine the shipped numbers were made on; `sdph explain --measure` replaces them by yours.
-SHIPPED = Speed(2.5, 0.4, 1.0, 1.0, 2.0, 3500.0, "another machine; `sdph explain SCENE --measure` measures this one")
-
-
-def speed() -> Speed:
-    """Speeds last measured on this machine, else the shipped numbers."""
-    kept = json.loads(MEASURED.read_text()) if MEASURED.is_file() else {}
-    return SHIPPED._replace(**kept)
-
-
-def of_liquid(case) -> float:
-    """Time [us] of a particle of a liquid and a step."""
-    return speed().liquid * (IN_SPACE if case.dimensions == 3 else 1.0)
 
 
 def ratios(case, edges=None) -> list[dict]:
     """Cells, kernels, spacings and grains against each other, with the range that is safe and why; none for a
-    liquid. `edges` as of `Priced`: what is wrong where cells are too large is so in the largest of them."""
+    liquid. `edges` as of `prices.Priced`: what is wrong where cells are too large is so in the largest of them."""
     if case.grains is None:
         return []
     h, spacing, cell = case.smoothing_length, case.resolution.spacing, case.resolution.cell
@@ -196,7 +141,7 @@ def warnings(case, edges=None) -> list[str]:
 
 
 def limits(case, scales, crossed: float = 0.0) -> list[dict]:
-    """Largest window and sub-step by cause [s]; the least of each kind rules. `crossed` as of `Priced`."""
+    """Largest window and sub-step by cause [s]; the least of each kind rules. `crossed` as of `prices.Priced`."""
     rows = [*_windows(case, scales, crossed), *_sub_steps(case, scales)]
     least = {kind: min(value for k, _, value, _ in rows if k == kind) for kind in ("window", "sub-step")}
     return [
@@ -258,20 +203,25 @@ def _state(case):
     return start.fill(case, {name for row in rows for name in row.arrays})
 
 
-def expected(case, s, priced: Priced | None = None) -> list[dict]:
+def expected(case, s, priced: prices.Priced | None = None) -> list[dict]:
     """Particles, cells, windows, sub-steps, memory and wall time; `priced` is the gas, if it is not the embedded one's
     box."""
-    own = speed()
-    in_space = IN_SPACE if case.dimensions == 3 else 1.0
-    priced = priced or Priced("embedded gas", math.prod(gas_cells.cells(case)), own.window, own.cell * in_space)
+    own = prices.speed()
+    in_space = prices.IN_SPACE if case.dimensions == 3 else 1.0
+    priced = priced or prices.Priced("embedded gas", math.prod(gas_cells.cells(case)), own.window, own.cell * in_space)
     start, cells = len(_state(case).x), priced.cells
     most, mean = feed.incoming(case)
     end, count = start + most, start + mean
     windows, steps = pace.expected(case, s, _state(case), priced.crossed)
-    particle = 1e-6 * count * steps * (own.moving if effects.moving(case) else own.resting)
-    particle *= in_space
-    gas = 1e-6 * windows * (priced.window + cells * priced.cell)
-    how = f"one core, {priced.name}, warm; particles {particle:.2g} s, gas {gas:.2g} s; measured on {own.measured}"
+    moved = count * in_space * (own.moving if effects.moving(case) else own.resting)
+    dries = (own.several if of_gas.kernel(case) else own.alike) if "evaporation" in case.effects else 0.0
+    parts = {
+        "particles": 1e-6 * steps * (moved + own.fed * bool(case.nozzles)),
+        "exchange": 1e-6 * windows * count * dries,
+        "gas": 1e-6 * windows * (priced.window + cells * priced.cell),
+    }
+    told = ", ".join(f"{name} {time:.2g} s" for name, time in parts.items() if time)
+    how = f"one core, {priced.name}, warm; {told}; measured on {own.measured}"
     return [
         {"what": "particles", "value": end, "unit": "",
         "how": f"{start} at the start" if end > start else "all the time"},
@@ -280,8 +230,7 @@ def expected(case, s, priced: Priced | None = None) -> list[dict]:
         {"what": "sub-steps", "value": steps, "unit": "", "how": "the same"},
         {"what": "memory", "value": memory(case, end, cells) / 1e6, "unit": "MB",
         "how": "state, neighbours, gas fields, program"},
-        {"what": "wall time", "value": particle + gas, "unit": "s",
-        "how": how},
+        {"what": "wall time", "value": sum(parts.values()), "unit": "s", "how": how},
     ]  # fmt: skip
 
 

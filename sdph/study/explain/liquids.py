@@ -15,7 +15,7 @@ from sdph.methods.liquids import bodies, filling
 from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
 from sdph.schema import CaseError
-from sdph.study.explain import estimate, feed
+from sdph.study.explain import estimate, feed, prices
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
 SAME = 1e-6  # of a spacing: round-off of corners
@@ -229,11 +229,11 @@ def expected(s, steps: list[dict], shared=None) -> list[dict]:
     end, longest = shared[:2] if shared else (s.end, min(row["largest [s]"] for row in steps))
     number = estimate.steps(s.case, end, longest)
     paid = number + REMOVING * min(number, _drained(s.case) / spacing**s.case.dimensions)
-    wall = 1e-6 * estimate.of_liquid(s.case) * 0.5 * (start + count) * paid
+    wall = 1e-6 * prices.of_liquid(s.case) * 0.5 * (start + count) * paid
     return [
         {"what": "liquid particles", "value": wet + count - start, "unit": ""},
         {"what": "particles, walls included", "value": count, "unit": ""},
         {"what": "steps", "value": number, "unit": ""},
         {"what": "memory", "value": estimate.memory(s.case, count, 0) / 1e6, "unit": "MB"},
-        {"what": "wall time", "value": wall, "unit": f"s (measured on {estimate.speed().measured})"},
+        {"what": "wall time", "value": wall, "unit": f"s (measured on {prices.speed().measured})"},
     ]

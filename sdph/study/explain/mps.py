@@ -7,7 +7,7 @@ import math
 from sdph import effects
 from sdph.methods.mps.method import COURANT
 from sdph.methods.mps.method import limits as limits_of_step
-from sdph.study.explain import estimate, feed
+from sdph.study.explain import estimate, feed, prices
 from sdph.study.explain.liquids import WATER
 
 LAYERS = 3.0  # across a film: with two every particle is at a surface; swirl-sheet.md, section 2, 5
@@ -17,7 +17,7 @@ TENSION_WHY = (
     "Weber = {weber:.3g}: tension moves this liquid, and moving particles have {off:.0%} too little of it in drops, "
     "which ring and rest wrongly; leave out [method] and take surface_tension, or expect that"
 )
-# Of a particle and step over that of a liquid in estimate.SHIPPED, 1 us: 2.52 us of a sheet that has filled its domain
+# Of a particle and step over that of a liquid in prices.SHIPPED, 1 us: 2.52 us of a sheet that has filled its domain
 # (benchmarks/README.md, "Moving particles"). The 1.3 there is over a particle of liquid in three dimensions, 1.94 us.
 ROWS = 2.5
 
@@ -95,10 +95,10 @@ def expected(s, steps: list[dict]) -> list[dict]:
     count = len(s.state.x) + fed + 4.0 * waiting / s.case.resolution.spacing ** (s.case.dimensions - 1)
     longest = min((row["largest [s]"] for row in steps), default=s.end)
     number = estimate.steps(s.case, s.end, longest)
-    wall = 1e-6 * ROWS * estimate.speed().liquid * count * number
+    wall = 1e-6 * ROWS * prices.speed().liquid * count * number
     return [
         {"what": "particles at the end", "value": int(count), "unit": ""},
         {"what": "steps", "value": number, "unit": ""},
         {"what": "memory", "value": estimate.memory(s.case, count, 0) / 1e6, "unit": "MB"},
-        {"what": "wall time", "value": wall, "unit": f"s (measured on {estimate.speed().measured})"},
+        {"what": "wall time", "value": wall, "unit": f"s (measured on {prices.speed().measured})"},
     ]

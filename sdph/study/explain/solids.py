@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from sdph.methods.solids import method, start
-from sdph.study.explain import estimate
+from sdph.study.explain import estimate, prices
 
 LAYERS = 4.0  # particles across a body: a ring of four gives Lame's stress within 3 % (gel-droplet.md, section 5)
 # a body H thick bends SOFT (h/H)^2 too far: beams of 4 to 20 layers, h/spacing of 1 to 2, plane and square ones, within
@@ -88,12 +88,12 @@ def expected(s, steps: list[dict], shared=None) -> list[dict]:
     count = len(s.state.x)
     end, longest = shared[:2] if shared else (s.end, min(row["largest [s]"] for row in steps))
     number = estimate.steps(s.case, end, longest)
-    wall = 1e-6 * estimate.speed().solid * count * number
+    wall = 1e-6 * prices.speed().solid * count * number
     return [
         {"what": "solid particles", "value": count, "unit": ""},
         {"what": "held", "value": int(s.made.held.sum()), "unit": ""},
         {"what": "steps", "value": number, "unit": ""},
         {"what": "speed of sound", "value": start.sound(s.case), "unit": "m/s"},
         {"what": "memory", "value": estimate.memory(s.case, count, 0) / 1e6, "unit": "MB"},
-        {"what": "wall time", "value": wall, "unit": f"s (measured on {estimate.speed().measured})"},
+        {"what": "wall time", "value": wall, "unit": f"s (measured on {prices.speed().measured})"},
     ]

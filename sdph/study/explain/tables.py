@@ -35,7 +35,7 @@ ALIKE = (
 
 def explain(case, priced=None) -> dict[str, list[dict]]:
     """All parts, each a list of rows (name -> value) of one table; of a case with several matters those of each.
-    `priced` (`estimate.Priced`) is the gas, where it is not the embedded one's."""
+    `priced` (`prices.Priced`) is the gas, where it is not the embedded one's."""
     case = start.assumed(case)
     if len(case.matters) == 1:
         return _explain(case, priced)

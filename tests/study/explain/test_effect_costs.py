@@ -8,7 +8,7 @@ from sdph import effects, scenes
 from sdph.case import read as cases
 from sdph.exchange.exchange import Exchange
 from sdph.methods.grains import start
-from sdph.study.explain import effect_costs, estimate
+from sdph.study.explain import effect_costs, prices
 
 BED = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
 
@@ -45,14 +45,14 @@ def test_a_sub_step_is_timed_and_moves_the_grains():
 
 def test_a_liquid_is_measured_by_its_own_steps(tmp_path, monkeypatch):
     """What is kept makes the estimate of the case that it was measured on; of few particles nothing is."""
-    monkeypatch.setattr(estimate, "MEASURED", tmp_path / "speed.json")
+    monkeypatch.setattr(prices, "MEASURED", tmp_path / "speed.json")
     case = cases.load(scenes.HERE / "hydrostatic_tank" / "case.toml", ("resolution.spacing_mm=50",))
     monkeypatch.setattr(effect_costs, "FEW", 10**6)
     effect_costs.measured(case, lambda line: None)
-    before = estimate.speed()
-    assert before == estimate.SHIPPED
+    before = prices.speed()
+    assert before == prices.SHIPPED
     monkeypatch.setattr(effect_costs, "FEW", 1)
     (row,) = effect_costs.measured(case, lambda line: None)
-    assert row["method"] == "liquid" and estimate.of_liquid(case) == pytest.approx(row["particle and step [us]"])
-    kept = estimate.speed()
+    assert row["method"] == "liquid" and prices.of_liquid(case) == pytest.approx(row["particle and step [us]"])
+    kept = prices.speed()
     assert kept.moving == before.moving and kept.measured.startswith("this machine")

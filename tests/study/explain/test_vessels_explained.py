@@ -18,7 +18,7 @@ from sdph.cli import main
 from sdph.scenes import paths
 from sdph.schema import CaseError
 from sdph.study import closed_vessels, inlets, rehearsal
-from sdph.study.explain import estimate, tables
+from sdph.study.explain import estimate, prices, tables
 from tests.coupling.openfoam.test_cell_sizes import row
 
 BED = scenes.HERE / "bubbling_bed" / "case.toml"
@@ -97,7 +97,7 @@ def test_cells_of_an_own_mesh_are_judged_where_grains_stand():
     assert told["cell / grain"] == pytest.approx(0.01 / case.grains.sauter_diameter)
     far = cases.from_table(table | {"resolution": {"spacing_mm": 2.0, "cell_mm": 5.0}})
     assert not [line for line in estimate.warnings(far) if line.startswith("cell / h")]
-    priced = estimate.by_openfoam(4)._replace(edges=edges)
+    priced = prices.by_openfoam(4)._replace(edges=edges)
     assert [line for line in tables.warnings(far, None, priced) if line.startswith("cell / h = 6.67")]
 
 
