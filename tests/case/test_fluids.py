@@ -63,8 +63,8 @@ def test_what_is_wrong_elsewhere_is_told_where_effects_are_chosen():
     own = droplet(**hot) | {"effects": "auto", "vapour": {"mass_fraction": 0.01}}
     del own["evaporation"]
     assert "evaporation" in cases.from_table(own).effects
-    own["particles"]["droplet"]["temperature"] = 300.0
-    with pytest.raises(CaseError, match="unknown key particles.droplet.temperature;"):
+    own["probes"] = {"here": {"at_m": [0.02, 0.02], "fields": ["warmth"]}}
+    with pytest.raises(CaseError, match="probes.here.fields"):
         cases.from_table(own)
 
 
