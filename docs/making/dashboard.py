@@ -17,7 +17,8 @@ PARTS = {
         "packed_bed": "friction", "minimum_fluidisation": "U_mf", "liquid_fluidisation": "index n",
         "water_drops": "drop's", "heptane_drops": "heptane", "humid_drops": "water drop",
         "micro_drops": "micrometric drop", "bed_transfer": "transfer in a bed", "heated_bed": "packed steel",
-        "hot_tube": "hot tube", "bed_pressure": "bed of beads", "bed_profiles": "bed of seeds",
+        "hot_tube": "hot tube", "tube_bank": "tube bank", "bed_pressure": "bed of beads",
+        "bed_profiles": "bed of seeds",
         "drop_spread": "spread of a drop",
     },
     "kinetic_theory": {
