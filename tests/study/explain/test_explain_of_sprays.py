@@ -141,3 +141,20 @@ def test_effects_of_a_fluid_are_told_where_droplets_hardly_meet():
         (FLUID.replace("granular_p", "gas_p"),),
     ):
         assert not [text for text in tables.warnings(case_of("spray_cone", *fewer)) if "are no fluid" in text]
+
+
+def test_droplets_are_priced_by_whether_their_sizes_differ():
+    """And nothing of the exchange where nothing evaporates."""
+
+    def told(*more):
+        case = case_of("spray_cone", *more)
+        (row,) = [row for row in estimate.expected(case, judge.scales_of(case)) if row["what"] == "wall time"]
+        return row["how"].partition("exchange ")[2].partition(" s")[0]
+
+    several, alike = float(told()), float(told("grains.diameter_std_mm=0"))
+    assert several == pytest.approx(50.0 / 15.0 * alike, rel=0.1)
+    table = cases.parsed(scenes.HERE / "spray_cone" / "case.toml")
+    table = {key: own for key, own in table.items() if key not in ("evaporation", "vapour")}
+    case = cases.from_table(table | {"effects": [name for name in table["effects"] if name != "evaporation"]})
+    (row,) = [row for row in estimate.expected(case, judge.scales_of(case)) if row["what"] == "wall time"]
+    assert "exchange" not in row["how"]
