@@ -142,8 +142,8 @@ def in_ledger(case) -> tuple[tuple[Column, ...], tuple[str, ...]]:
     """Columns that effects have in the ledger, on or off; names of those whose sums this case tells."""
     on = (row for name, row in REGISTRY.items() if name in case.effects)
     told = dict.fromkeys(name for row in on for name in row.sums)
-    columns = tuple(column for row in REGISTRY.values() for column in row.columns)
-    return (*columns, *by_nozzle.in_ledger(case)), (*told, *by_nozzle.names(case))
+    columns, parts = (column for row in REGISTRY.values() for column in row.columns), by_nozzle.names(case)
+    return (*columns, *map(Column, parts)), (*told, *parts)  # of parts of other columns balances know nothing
 
 
 def without_input(matter: str) -> dict:

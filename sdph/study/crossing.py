@@ -26,7 +26,8 @@ def among_grains(case, mesh: PolyMesh, held: np.ndarray) -> float:
 def rates(case, mesh: PolyMesh) -> np.ndarray:
     """(C,) [1/s] half of what goes through the faces of each cell in a second over its volume, of gas that alone and
     without eddies goes from inlets, at their strongest, to outlets; zeros without both."""
-    cells, inner, inward = len(mesh.volumes), len(mesh.neighbour), np.zeros(len(mesh.owner))
+    volumes, inner, inward = mesh.volumes, len(mesh.neighbour), np.zeros(len(mesh.owner))
+    cells = len(volumes)
     open_to = np.zeros(len(mesh.owner), bool)
     for name, boundary in case.boundaries.items():
         if name in mesh.patches:
@@ -50,7 +51,7 @@ def rates(case, mesh: PolyMesh) -> np.ndarray:
     potential, _ = cg(matrix, given, rtol=CLOSE, M=scipy.sparse.diags_array(1.0 / diagonal))
     flow = np.abs(inward) + conductance * np.abs(potential[mesh.owner])
     flow[:inner] = between * np.abs(potential[own] - potential[other])
-    return 0.5 * (np.bincount(mesh.owner, flow, cells) + np.bincount(other, flow[:inner], cells)) / mesh.volumes
+    return 0.5 * (np.bincount(mesh.owner, flow, cells) + np.bincount(other, flow[:inner], cells)) / volumes
 
 
 def _vector(velocity) -> np.ndarray:

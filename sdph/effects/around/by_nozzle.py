@@ -5,20 +5,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from sdph.engine.ledger import Column
-
 
 def names(case) -> tuple[str, ...]:
-    """Columns of a case; none where all grains come from one place."""
-    if not case.grains or len(case.nozzles) + bool(case.particles) < 2:
+    """Ledger columns of a case; none where all grains come from one place."""
+    if not case.grains or "inflow" not in case.effects or len(case.nozzles) + bool(case.particles) < 2:
         return ()
     what = ["injected", *_lost(case), *(["left"] if "outflow" in case.effects else [])]
     return tuple(_column(name, key) for name in case.nozzles for key in what)
-
-
-def in_ledger(case) -> tuple[Column, ...]:
-    """The same as columns of the ledger: parts of others, so that balances know nothing of them."""
-    return tuple(Column(name) for name in names(case))
 
 
 def masses(case, nozzle, mass) -> np.ndarray:
@@ -36,7 +29,7 @@ def lost(case, state, loss) -> dict[str, float]:
     """The same of what evaporated or burned, `loss` as of `sdph.exchange.amounts`."""
     return {
         name: mass
-        for key in (_lost(case) if loss else ())
+        for key in (_lost(case) if loss and names(case) else ())
         for name, mass in columns(case, key, masses(case, state.nozzle, loss.vapour)).items()
     }
 

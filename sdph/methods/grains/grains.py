@@ -254,7 +254,7 @@ class Grains:
         return own + state.bubble_heat if len(state.bubble_heat) else own
 
     def _came_in(self):
-        """Mass [kg], enthalpy, energy of motion [J] and momentum [kg m/s] through the nozzles since the start."""
+        """Mass [kg], enthalpy, energy of motion [J], mass of each [kg] and momentum [kg m/s] through the nozzles."""
         own = self.source
         return tuple(getattr(own, name) for name in CAME_IN) if own else (0.0, 0.0, 0.0, np.zeros(0), np.zeros(3))
 
