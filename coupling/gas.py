@@ -106,7 +106,8 @@ class Budget:
     last step, by column of history.csv, each 0 or more (docs/limiters.md).
 
     `patches` has by name of a boundary (3, 3) what it gave since the start: its parts of `impulse_pressure` and of
-    `impulse_walls` [kg m/s], and the moment of both about the origin [kg m2/s].
+    `impulse_walls` [kg m/s], and the moment of both about the origin [kg m2/s]; `crossed` (4,) what gas came in
+    through it [kg], and what left through it: gas [kg], its enthalpy cp T [J], vapour [kg].
     """
 
     mass: float
@@ -132,6 +133,7 @@ class Budget:
     residuals: dict[str, float] = field(default_factory=dict)
     held: dict[str, float] = field(default_factory=dict)
     patches: dict[str, list] = field(default_factory=dict)
+    crossed: dict[str, list] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

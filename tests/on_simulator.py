@@ -8,6 +8,9 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
+
+import numpy as np
 
 OPERATORS = ("eq", "ne", "lt", "le", "gt", "ge", "add", "sub", "mul", "floordiv", "truediv", "mod", "pow")
 KNOWN = {"dtype", "size", "ndim", "strides", "flags", "squeeze"}  # of numba.cuda's DeviceNDArray
@@ -16,11 +19,44 @@ KNOWN = {"dtype", "size", "ndim", "strides", "flags", "squeeze"}  # of numba.cud
 def make_strict() -> None:
     """Take away from simulated arrays what those of a device lack."""
     from numba.cuda.simulator.cudadrv.devicearray import FakeCUDAArray
+    from numba.cuda.simulator.kernel import BlockManager
 
+    BlockManager.run = _one_after_another
     for name in OPERATORS:
         delattr(FakeCUDAArray, f"__{name}__")
     FakeCUDAArray.__hash__ = object.__hash__
     FakeCUDAArray.__getattr__ = _known
+
+
+class _InKernel(np.ndarray):
+    """An array as a kernel has it: of single values, rows of them and its shape."""
+
+    __array_ufunc__ = None
+
+
+for _name in (*OPERATORS, *(f"{way}{name}" for way in "ir" for name in OPERATORS[6:])):
+    setattr(_InKernel, f"__{_name}__", None)
+
+
+def _in_kernel(given):
+    if isinstance(given, tuple):
+        own = [_in_kernel(part) for part in given]
+        return type(given)(*own) if hasattr(given, "_fields") else tuple(own)
+    for name in ("_item", "_ary"):  # the simulator's wrappers
+        given = getattr(given, "__dict__", {}).get(name, given)
+    return given.view(_InKernel) if isinstance(given, np.ndarray) else given
+
+
+def _one_after_another(block, point, *given) -> None:
+    """Go through the threads of a block: kernels of ours wait for no other, and one of Python's for each is dear."""
+    from numba.cuda.simulator.kernel import Dim3
+
+    me = threading.current_thread()
+    me.blockIdx = Dim3(*point)
+    own = _in_kernel(given)
+    for thread in np.ndindex(*block._block_dim):
+        me.threadIdx = Dim3(*thread)
+        block._f(*own)
 
 
 def _known(array, name: str):

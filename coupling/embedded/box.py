@@ -52,7 +52,8 @@ class Flow:
     """All that the next window needs. Cells (S,): alpha, mass, vapour [kg], temperature [K], pressure [Pa];
     faces (d, S): velocity [m/s], flux [kg/s]; `ratio` of the density to the equation of state; what came in
     through the boundary since the start [kg, J, kg, J]; works since the start [J], see `coupling.gas.Budget`, and the
-    `impulses` (6, 3) [kg m/s] of `coupling.gas.IMPULSES`; on_patches (P, 3, 3), those of each boundary."""
+    `impulses` (6, 3) [kg m/s] of `coupling.gas.IMPULSES`; on_patches (P, 3, 3) those of each boundary, and crossed
+    (P, 4) [kg, kg, J, kg] what passed it."""
 
     time: float
     alpha: np.ndarray
@@ -64,6 +65,7 @@ class Flow:
     flux: np.ndarray
     impulses: np.ndarray
     on_patches: np.ndarray
+    crossed: np.ndarray
     ratio: float = 1.0
     mass_in: float = 0.0
     energy_in: float = 0.0
@@ -83,7 +85,8 @@ def restored(box: Box, saved: dict[str, np.ndarray]) -> Flow:
     """The flow from its saved attributes (name -> array); ValueError where they are not of this box or no gas is like
     that."""
     cells, faces = (box.grid.size,), (box.grid.dimensions, box.grid.size)
-    shapes = {"velocity": faces, "flux": faces, "impulses": (len(IMPULSES), 3), "on_patches": (len(box.names), 3, 3)}
+    shapes = {"velocity": faces, "flux": faces, "impulses": (len(IMPULSES), 3)}
+    shapes |= {"on_patches": (len(box.names), 3, 3), "crossed": (len(box.names), 4)}
     for field in dataclasses.fields(Flow):
         value = saved[field.name]
         shape = () if field.type == "float" else shapes.get(field.name, cells)

@@ -83,5 +83,6 @@ def budget(box: Box, flow: Flow, fields: dict[str, np.ndarray]) -> Budget:
         viscous_work=flow.viscous_work, courant=0.0,
         held={"gas_box_rel": 0.0, "gas_mass_left_rel": 0.0},
         patches=dict(zip(box.names, flow.on_patches.tolist())),
+        crossed=dict(zip(box.names, flow.crossed.tolist())),
         **{name: tuple(impulse) for name, impulse in zip(IMPULSES, flow.impulses.tolist())},
     )  # fmt: skip

@@ -49,7 +49,7 @@ class Scalars:
         if not carried[grid.cells].min() > 0.0:
             raise Unfinished("what one window gives to the gas fills a cell all by itself; shorten the window")
         parts, courant = substeps(grid.inner, flow.flux, old.mass, carried, window.dt)
-        residuals = {}
+        residuals, through = {}, np.zeros_like(flow.flux)
         heat = box.properties.gas.heat_capacity
         content, carrier = heat * old.mass, heat * flow.flux
         after = heat * flow.mass
@@ -59,8 +59,18 @@ class Scalars:
             content, after = content + more * old.vapour, after + more * flow.vapour
             carrier = carrier + more * through / window.dt
             parts, _ = substeps(grid.inner, carrier, content, after, window.dt)
-        flow, residuals["heat"] = self._heat(old, window, flow, (content, carrier, after, parts))
-        return flow, courant, residuals
+        flow, warmth, residuals["heat"] = self._heat(old, window, flow, (content, carrier, after, parts))
+        crossed = old.crossed + self._crossed(window.dt * flow.flux, warmth, through)
+        return replace(flow, crossed=crossed), courant, residuals
+
+    def _crossed(self, mass: np.ndarray, warmth: np.ndarray, vapour: np.ndarray) -> np.ndarray:
+        """(P, 4) of `coupling.gas.Budget.crossed`, of what goes through faces (d, S) [kg, J, kg]."""
+        box, found = self.box, np.zeros((len(self.box.names), 4))
+        out, *with_it = (box.outward(own) for own in (mass, warmth, vapour))
+        leaves = out > 0.0
+        parts = np.maximum(-out, 0.0), np.maximum(out, 0.0), *(np.where(leaves, own, 0.0) for own in with_it)
+        np.add.at(found, box.faces.owner, np.stack(parts, axis=1))
+        return found
 
     def _vapour(self, old: Flow, window: Window, flow: Flow, parts: int):
         """The new flow, the vapour (d, S) [kg] through every face, and the residual."""
@@ -86,7 +96,8 @@ class Scalars:
         return fraction
 
     def _heat(self, old: Flow, window: Window, flow: Flow, heat):
-        """The new flow and the residual; heat: content [J/K] before, its flux [W/K], content after, sub-steps."""
+        """The new flow, what went through faces (d, S) [J], and the residual; heat: content [J/K] before, its flux
+        [W/K], content after, sub-steps."""
         before, carrier, after, parts = heat
         conductivity = window.alpha * self.box.properties.mixture("conductivity", flow.fraction())
         grown = window.dt * (window.cling + self.box.properties.gas.heat_capacity * window.carrier)
@@ -102,7 +113,7 @@ class Scalars:
             "pressure_work": old.pressure_work + float(pressed.sum()),
             "boundary_work": old.boundary_work + float(unpaid.sum()),
         }
-        return replace(flow, temperature=temperature, energy_in=energy_in, **works), error
+        return replace(flow, temperature=temperature, energy_in=energy_in, **works), through, error
 
     def _transport(self, flow: Flow, dt: float, name: str, carried, diffusivity: np.ndarray, exchanged):
         """One field from the start of the window to its end, and what went through every face."""

@@ -81,7 +81,8 @@ class EmbeddedGas:
         mass[grid.cells] = alpha[grid.cells] * grid.geometry.volume[grid.cells] * density
         pressure = self.pressure.at_start()
         velocity = self.pressure.standing.copy()
-        moving = velocity, grid.zeros(grid.dimensions), np.zeros((len(IMPULSES), 3)), np.zeros((len(box.names), 3, 3))
+        sums = [np.zeros(shape) for shape in ((len(IMPULSES), 3), (len(box.names), 3, 3), (len(box.names), 4))]
+        moving = velocity, grid.zeros(grid.dimensions), *sums
         self.flow = self.pressure.at_once(Flow(0.0, alpha, mass, fraction * mass, temperature, pressure, *moving))
         self.state = self._state()
         return self.state

@@ -8,6 +8,8 @@ from coupling.gas import FIELDS, IMPULSES, ON_REQUEST, Budget, GasState, Mesh
 from coupling.transport.messages import Message
 from sdph.schema import CaseError
 
+BY_PATCH = {"patches": ("patch_", 3, 3), "crossed": ("crossed_", 4)}  # of a budget: how names begin, and the shape
+
 
 def mesh(told: Message) -> Mesh:
     """The mesh in a message."""
@@ -47,12 +49,13 @@ def _ours(case, section: str, key: str):
 
 def state(message: Message, cells: int, vapour: bool, asked: tuple[str, ...] = ()) -> GasState:
     """The state in a message, of a mesh of `cells` cells, with the fields that were `asked` for."""
-    totals = {f.name for f in dataclasses.fields(Budget)} - {"residuals", "held", "patches"}
+    totals = {f.name for f in dataclasses.fields(Budget)} - {"residuals", "held", *BY_PATCH}
     vectors = {name: tuple(message.array(f"budget_{name}", 3).tolist()) for name in ("momentum", *IMPULSES)}
     numbers = {name: float(message.number(f"budget_{name}")) for name in totals - vectors.keys()}
     named = {"residuals": _begun(message, "residual_"), "held": _begun(message, "held_")}
-    own = [name for name in message.values if name.startswith("patch_")]
-    named["patches"] = {name.removeprefix("patch_"): message.array(name, 3, 3).tolist() for name in own}
+    for name, (begin, *shape) in BY_PATCH.items():
+        own = [key for key in message.values if key.startswith(begin)]
+        named[name] = {key.removeprefix(begin): message.array(key, *shape).tolist() for key in own}
     rows = {name: row for name, row in FIELDS.items() if vapour or name != "vapour_mass_fraction"}
     rows |= {name: ON_REQUEST[name] for name in asked}
     shapes = {name: (cells, 3)[: 1 + (row[1] == 3)] for name, row in rows.items()}

@@ -20,6 +20,7 @@ from statistics import fmean
 
 import scipy
 
+from sdph.case import properties
 from sdph.laws import diffusion
 from sdph.laws import evaporation as law
 from sdph.laws.constants import GAS_CONSTANT
@@ -59,16 +60,14 @@ class Fluid:
 
     def __init__(self, name: str, where: str):
         try:
-            import CoolProp.CoolProp as library
-        except ImportError:
+            self.library, self.where = properties.library(), where
+            self.name = self.library.get_fluid_param_string(name, "name")
+        except properties.Missing:
             raise CaseError(f"{where}.fluid = {name!r} needs CoolProp: pip install 'sdph[fluids]', or {HOW}") from None
-        self.library, self.where = library, where
-        try:
-            self.name = library.get_fluid_param_string(name, "name")
         except (ValueError, RuntimeError):
-            known = library.FluidsList()
+            known = self.library.FluidsList()
             raise CaseError(f"{where}.fluid: {unknown(name, known).replace('unknown key', 'no fluid', 1)}") from None
-        self.molar_mass = 1e3 * library.PropsSI("M", self.name)  # kg/kmol
+        self.molar_mass = 1e3 * self.library.PropsSI("M", self.name)  # kg/kmol
 
     def at(self, what: str, of: str = "", **state: float) -> float:
         """A property [SI] at T [K] and P [Pa], or on the line of boiling at one of them and Q = 0 or 1; `of` says where

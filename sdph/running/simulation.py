@@ -17,7 +17,7 @@ from sdph.exchange import vapour
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
 from sdph.methods.grains.grains import Grains
-from sdph.running import compiling, forces, history, outlet, output, through_gas
+from sdph.running import compiling, forces, history, openings, outlet, output, through_gas
 from sdph.running.beside import Beside
 from sdph.running.limiters import Limiters
 from sdph.running.work import Pushes
@@ -40,7 +40,7 @@ class Simulation:
         self.exchange = Exchange(case, gas.mesh, self.parameters)
         self.repeated, self.grid, self.world = 0, None, self.stepper.world
         self.notices = self.grains.notices  # for the user, until somebody has passed them on
-        self._weights_now, self.pressed = None, {}  # forces of the gas on boundaries in the last window
+        self._weights_now, self.at_boundaries = None, {}  # what the gas did there in the last window
         self.beside, self.limiters = Beside(), Limiters()  # other methods; what limiters hold
         self.outlet = outlet.beside(case, ledger.table)
         self.wall = dict.fromkeys(("particles", "exchange", "gas", "compiling"), 0.0)
@@ -108,7 +108,7 @@ class Simulation:
         self.gas_state = self.gas.start(alpha_g, () if one_way else self.exchange.sources, self.exchange.fields)
         self._begin_exchange()
         self.ledger.open(self._totals(), self.gas_state.budget)
-        self.pressed = self._forces(None, 0.0)
+        self.at_boundaries = self._at_boundaries(None, 0.0)
         held = self.exchange.begin(self.state, self.weights, self.gas_state)
         self._obey_effects()
         self._hear(held | self.gas_state.budget.held)
@@ -140,7 +140,7 @@ class Simulation:
         end, handed = through_gas.advance(self, self.clock.choose(self.time))
         dt = end - self.time
         taken = self.timed("exchange", self.exchange.take, self.state, handed, self.gas_state)
-        self.pressed = self._forces(before, dt)
+        self.at_boundaries = self._at_boundaries(before, dt)
         changed = self._look_back(handed, taken, dt)
         broken = self.exchange.settle(self.state, handed)
         pushes = self._react(handed, taken, dt)
@@ -231,13 +231,15 @@ class Simulation:
             return str(failure)
         return self.stepper.guard.gas(self.gas_state.fields, self.gas.mesh.centres)
 
-    def _forces(self, before, time: float) -> dict[str, float]:
-        """Mean forces of the gas on boundaries over `time` [s], from a budget on (None: since the start)."""
-        return forces.mean(self.case, self.gas.mesh.depth, before, self.gas_state.budget, time)
+    def _at_boundaries(self, before, time: float) -> dict[str, float]:
+        """Means over `time` [s], from a budget on (None: since the start), of the gas: its forces on boundaries, and
+        what goes through openings."""
+        given = self.case, self.gas.mesh.depth, before, self.gas_state.budget, time
+        return forces.mean(*given) | openings.mean(*given)
 
     def row(self) -> dict[str, float]:
         """Columns of history.csv; those of other methods begin with their matter."""
-        own = history.row(self) | self.pressed | forces.row(self.methods) | self.limiters.now
+        own = history.row(self) | self.at_boundaries | forces.row(self.methods) | self.limiters.now
         return own | self.beside.named(lambda method: method.row())
 
     def meshes(self) -> dict:
@@ -257,7 +259,7 @@ class Simulation:
         """summary.json, its own part."""
         own = {"cells": len(self.gas.mesh.volumes)} | self.grains.summary() | {"windows_repeated": self.repeated}
         own |= self.limiters.summary() | (self.outlet.summary() if self.outlet else {})
-        own |= {f"mean_{name}": value for name, value in self._forces(None, self.time).items()}
+        own |= {f"mean_{name}": value for name, value in self._at_boundaries(None, self.time).items()}
         own |= forces.summary(self.methods) | history.in_the_end(self.case, out.first, out.last)
         return own | self.beside.named(lambda method: method.summary() | method.ledger.summary())
 

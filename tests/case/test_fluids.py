@@ -6,7 +6,7 @@ import tomllib
 import pytest
 
 from sdph import effects, scenes
-from sdph.case import fluids, usual
+from sdph.case import fluids, properties, usual
 from sdph.case import read as cases
 from sdph.laws import diffusion
 from sdph.laws.evaporation import saturation_antoine
@@ -190,8 +190,9 @@ def test_what_a_case_gives_stands_and_the_resolved_case_has_all():
     assert cases.from_table(cases.to_table(case)) == case
 
 
-def test_a_resolved_case_needs_no_library(monkeypatch):
+def test_a_resolved_case_needs_no_library(monkeypatch, tmp_path):
     resolved = cases.to_table(cases.from_table(droplet()))
+    monkeypatch.setattr(properties, "library", lambda: properties.Library(tmp_path))
     monkeypatch.setitem(sys.modules, "CoolProp.CoolProp", None)
     cases.from_table(resolved)
     with pytest.raises(CaseError, match="needs CoolProp"):

@@ -1,5 +1,6 @@
 """Ends of sdphGasFoam: killed, told to stop or closed, it says so and leaves nothing."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -17,9 +18,11 @@ from coupling.openfoam.solver import OpenFoamGas
 
 
 def alive(pids):
-    return [
-        pid for pid in pids if os.path.exists(f"/proc/{pid}") and " Z " not in Path(f"/proc/{pid}/stat").read_text()
-    ]
+    found = []
+    for pid in pids:
+        with contextlib.suppress(FileNotFoundError, ProcessLookupError):  # it may end meanwhile
+            found += [pid] * (" Z " not in Path(f"/proc/{pid}/stat").read_text())
+    return found
 
 
 def wait_for_end(pids, seconds=2.0):
