@@ -45,7 +45,8 @@ class StillGas:
         gas = self.case.gas
         mass = float((self.alpha * self.mesh.volumes).sum() * gas.density)
         energy = float((self.alpha * self.temperature * self.mesh.volumes).sum() * gas.density * gas.heat_capacity)
-        budget = Budget(mass, energy, 0.0, (0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
+        crossed = {name: [0.0] * 4 for name in self.case.boundaries}
+        budget = Budget(mass, energy, 0.0, (0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0, crossed=crossed)
         fields = {
             "velocity": zeros,
             "pressure": zeros[:, 0],

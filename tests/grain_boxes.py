@@ -129,7 +129,8 @@ class Row:
         own = self.mass * self.mesh.volumes.sum(), self.heat, 0.0, tuple(total), 0.0, 0.0, 0.0, 0.0
         told = {name: tuple(impulse.tolist()) for name, impulse in self.impulses.items()}
         still = {name: np.zeros((3, 3)).tolist() for name in self.case.boundaries}
-        budget = Budget(*own, kinetic=kinetic, patches=still, **told)
+        shut = {name: [0.0] * 4 for name in self.case.boundaries}
+        budget = Budget(*own, kinetic=kinetic, patches=still, crossed=shut, **told)
         fields = {
             "velocity": self.velocity.copy(), "pressure": zeros,
             "pressure_gradient": np.tile(self.gradient, (cells, 1)), "temperature": zeros + 300.0,

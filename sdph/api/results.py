@@ -18,7 +18,7 @@ from sdph.running import output
 from sdph.schema import CaseError
 from sdph.show import timeline
 from sdph.study import against as comparison
-from sdph.study import sampling
+from sdph.study import sampling, steadiness
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -131,6 +131,13 @@ class Run:
         """Means and variances over the outputs from `start` to `end` [s]: (particles, gas, times), pyvista meshes with
         arrays NAME_mean and NAME_variance; particles at points `step` [m] apart (None: a spacing)."""
         return sampling.averages(self.folder, start, end, step)
+
+    def steadiness(self) -> pandas.DataFrame:
+        """Curves over the last quarter of the run and the one before: column, mean, doubt (95 %), a_quarter_before,
+        change, steady; of those that are numbers there and change."""
+        import pandas
+
+        return pandas.DataFrame(steadiness.rows(self.columns("history")))
 
     def compare(self, against: str) -> pandas.DataFrame:
         """Checks against `tfm`, `dpm` or `exact`: name, value, reference, tolerance, ok; warns of times that lack."""

@@ -46,7 +46,9 @@ class Still:
         full = {"temperature": case.gas.temperature + 10.0, "density": case.gas.density}
         self.state = SimpleNamespace(
             fields=fields | {name: np.full(len(centres), value) for name, value in full.items()},
-            budget=Budget(0.0, 0.0, 0.0, NOTHING, 0.0, 0.0, 0.0, 0.0),
+            budget=Budget(
+                0.0, 0.0, 0.0, NOTHING, 0.0, 0.0, 0.0, 0.0, crossed=dict.fromkeys(case.boundaries, [0.0] * 4)
+            ),
         )
 
     def start(self, alpha_g, sources, fields=()):

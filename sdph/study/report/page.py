@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from sdph.case import read as cases
-from sdph.running import output
+from sdph.running import openings, output
 from sdph.running.limiters import LARGEST
 from sdph.scenes import paths
 from sdph.schema import CaseError, flat
 from sdph.show import frames
+from sdph.study import steadiness
 from sdph.study.report import bars, curves, glance
 from sdph.study.report.shown import Shown, folded, opened, picture, section, side_by_side, table, told_apart
 
@@ -34,12 +35,26 @@ def write(folders: list[Path], target: Path) -> Path:
     runs = told_apart([opened(Path(folder)) for folder in folders])
     title = " and ".join(dict.fromkeys(run.case.title or run.name for run in runs))
     parts = [f"<h1>{html.escape(title)}</h1>", glance.shown(runs), curves.curves(runs), bars.checks(runs)]
-    parts += [_views(runs), _pictures(runs), bars.closures(runs), bars.times(runs), _results(runs), _limiters(runs)]
-    parts += [_effects(runs), _settings(runs), _versions(runs)]
+    parts += [_steadiness(runs), _views(runs), _pictures(runs), bars.closures(runs), bars.times(runs), _results(runs)]
+    parts += [_limiters(runs), _effects(runs), _settings(runs), _versions(runs)]
     style = (paths.PACKAGE / "study" / "report" / "style.css").read_text(encoding="utf-8")
     page = PAGE.format(title=html.escape(title), style=style, body="\n".join(parts), script=SCRIPT)
     output.write_text(target, page)
     return target
+
+
+def _steadiness(runs: list[Shown]) -> str:
+    """Means over the last quarter of runs through whose openings gas goes, and whether they still change."""
+    parts = []
+    for run in (run for run in runs if openings.names(run.case)):
+        rows = [row for row in steadiness.rows(run.history) if not row["column"].startswith("particle_")]
+        if not rows:
+            continue
+        moving = ", ".join(row["column"] for row in rows if not row["steady"])
+        said = f"these still change: {moving}" if moving else "all curves are steady"
+        numbers = table([*rows[0]], [list(row.values()) for row in rows])
+        parts += [f"<p><b>{html.escape(run.name)}</b>: {said}.</p>", folded("means of the last quarter", numbers)]
+    return section("Is it steady?", "".join(parts))
 
 
 def _views(runs: list[Shown]) -> str:
