@@ -71,11 +71,13 @@ def _refuse_unknown(case, known) -> None:
 
 
 def refuse_beside(case, mesh: Path | None) -> None:
-    """CaseError where the domain or a mouth is not where the gas is: before a run, and in its rehearsal. `mesh` is the
-    OpenFOAM case with a mesh of its own; None where the gas fills the domain."""
+    """CaseError where the domain, a mouth or a probe is not where the gas is: before a run, and in its rehearsal.
+    `mesh` is the OpenFOAM case with a mesh of its own; None where the gas fills the domain."""
     if mesh:
         _refuse_other_size(case, mesh)
-    _refuse_mouths_outside(case, Cells(case, mesh))
+    cells = Cells(case, mesh)
+    _refuse_mouths_outside(case, cells)
+    _refuse_probes_outside(case, cells)
 
 
 def own_mesh(gas, folder: Path) -> Path | None:
@@ -99,6 +101,22 @@ class Cells:
             return np.asarray(self.grid.find_containing_cell(np.pad(places, ((0, 0), (0, 3 - places.shape[1]))))) < 0
         free = np.array([not period for period in self.domain.period[: self.dimensions]])
         return (((places < self.domain.corner) | (places > self.domain.upper)) & free).any(axis=1)
+
+
+def _refuse_probes_outside(case, cells: Cells) -> None:
+    """CaseError where a probe is off a mesh that is no box by more than half a spacing: walls are of facets."""
+    for name, probe in case.probes.items() if cells.grid is not None else ():
+        place = np.array(probe.at)
+        if not cells.outside(place[None])[0]:
+            continue
+        here = [*place, 0.0][:3]
+        _, near = cells.grid.find_closest_cell(here, return_closest_point=True)
+        off = math.dist(here, near)
+        if off > 0.5 * case.resolution.spacing:
+            raise CaseError(
+                f"probes.{name}.at_m = {_told(place)} m is in no cell of the gas: the nearest, at "
+                f"{_told(near[: case.dimensions])} m, is {off:.3g} m away; move it in"
+            )
 
 
 def _refuse_other_size(case, mesh: Path) -> None:

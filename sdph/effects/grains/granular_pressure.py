@@ -60,7 +60,7 @@ def held(p, method) -> dict[str, float]:
 
 def call(scales) -> Judgement:
     """Collisions of a grain within the run; what they push with, over the momentum flux of the grains."""
-    collisions = scales.end / scales.collision_time if scales.collides and scales.speed else 0.0
+    collisions = scales.end / scales.collision_time if scales.a_fluid and scales.speed else 0.0
     if not collisions:
         return Judgement("collisions of a grain in the run", 0.0, 1.0, SOURCE, 0.0)
     stiffness = 1.0 + 2.0 * (1.0 + scales.grains.restitution) * scales.alpha_p * scales.g0

@@ -217,7 +217,7 @@ def call(scales) -> Judgement:
         else 0.0
     )
     rate = cooling * math.sqrt(scales.theta) + granular.damping_rate(1.0 / scales.drag_time)
-    changed = -math.expm1(-rate * scales.end) if scales.speed and scales.collides else 0.0
+    changed = -math.expm1(-rate * scales.end) if scales.speed and scales.a_fluid else 0.0
     stiffness = 1.0 + 2.0 * (1.0 + scales.grains.restitution) * scales.alpha_p * scales.g0
     push = scales.theta * stiffness / scales.speed**2 if scales.speed else 0.0
     source = "Haff 1983; Lun et al. 1984"

@@ -95,7 +95,7 @@ def dt_limit(p, case, state) -> float:
 
 def call(scales) -> Judgement:
     """Reach of momentum by viscosity within the run over the width of the shear, squared."""
-    if not scales.collides or not scales.speed:
+    if not scales.a_fluid or not scales.speed:
         return Judgement("nu t/L2", 0.0, 0.01, SOURCE, 0.0)
     grains = scales.grains
     mu = granular.gidaspow_viscosity(

@@ -33,9 +33,8 @@ class Scales:
     def __init__(self, case):
         self.gas, self.end = case.gas, case.run.end_time
         self.patches = [_patch(case, name, region) for name, region in case.particles.items()]
-        self.patches += [
-            patch for own in case.parameters.values() if hasattr(own, "patches") for patch in own.patches(case)
-        ]
+        given = [own.patches(case) for own in case.parameters.values() if hasattr(own, "patches")]
+        self.patches += [patch for own in given for patch in own]
         self.case = sizes.of_densest(case, self.patches)
         self.grains = self.case.grains
         self.gravity = math.hypot(*case.domain.gravity)
@@ -49,10 +48,8 @@ class Scales:
     @cached_property
     def length(self) -> float:
         """Narrowest extent [m] of the grains."""
-        return min(
-            (b - a for patch in self.patches for a, b in zip(patch.lower, patch.upper)),
-            default=min(self.case.domain.size),
-        )
+        widths = (b - a for patch in self.patches for a, b in zip(patch.lower, patch.upper))
+        return min(widths, default=min(self.case.domain.size))
 
     @cached_property
     def fed(self) -> list[tuple[float, float]]:
@@ -268,10 +265,14 @@ class Scales:
         found = 6.0 * math.sqrt(2.0) * self.alpha_p * self.g0
         return self.grains.diameter / found if found else math.inf
 
+    @property
+    def a_fluid(self) -> bool:
+        """True where grains meet others within h, as those of a fluid do (Knudsen number below 1: Bird 1994, ch. 1)."""
+        return self.collides and self.free_path <= self.case.smoothing_length
+
     @cached_property
     def thin(self) -> bool:
-        """True where grains fly so far between collisions that they are no fluid over h: streams pass through each
-        other, without a shock."""
+        """True where grains fly so far between collisions that streams pass through each other, without a shock."""
         return self.free_path > THIN * self.case.smoothing_length
 
     @cached_property
@@ -280,11 +281,8 @@ class Scales:
         if not self.alpha_p or not self.theta:
             return 0.0
         grains, slope = self.grains, granular.sinclair_jackson_slope(self.capped, self.grains.packing_limit)
-        return math.sqrt(
-            granular.sound_speed_squared(
-                self.capped, self.theta, grains.restitution, self.g0, slope, grains.density, 0.0
-            )
-        )
+        own = self.capped, self.theta, grains.restitution, self.g0, slope, grains.density, 0.0
+        return math.sqrt(granular.sound_speed_squared(*own))
 
 
 def scales_of(case) -> Scales:

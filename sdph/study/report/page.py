@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import html
+import tempfile
 from pathlib import Path
 
 import numpy as np
 
 from sdph.case import read as cases
-from sdph.running import openings, output
+from sdph.running import openings, output, vessel
 from sdph.running.limiters import LARGEST
 from sdph.scenes import paths
 from sdph.schema import CaseError, flat
@@ -90,10 +92,18 @@ def _effects(runs: list[Shown]) -> str:
 
     parts = []
     for run in runs:
-        rows = [r for r in tables.effect_rows(run.case) if r["effect"] in run.case.effects or r["called for"] == "yes"]
+        rows = tables.effect_rows(_in_its_vessel(run))
+        rows = [row for row in rows if row["effect"] in run.case.effects or row["called for"] == "yes"]
         head = f"<p><b>{html.escape(run.name)}</b>: {glance.state(run)}</p>"
         parts.append(head + (table(list(rows[0]), [list(row.values()) for row in rows]) if rows else ""))
     return section("What was run", folded("effects and the reasons for them", "".join(parts)))
+
+
+def _in_its_vessel(run: Shown):
+    """The case of a run with its openings where the mesh of its gas has them, as `sdph explain` judges it."""
+    with tempfile.TemporaryDirectory() as folder, contextlib.suppress(CaseError):  # the mesh may be gone or damaged
+        return vessel.foreseen(run.case, run.folder / "gas", Path(folder))
+    return run.case
 
 
 def _settings(runs: list[Shown]) -> str:

@@ -24,6 +24,13 @@ def test_a_fast_dilute_flow_is_told_of():
     assert told("spray_cone", *DUCT, model) == []
 
 
+def test_what_a_riser_carries_does_not_rule_its_gas():
+    """Droplets at alpha_p = 0.001 leave eddies as they are, at 0.04 they do not."""
+    rate = cases.load(scenes.HERE / "spray_cone" / "case.toml").nozzles["cone"].rate
+    for times, known in ((1.0, True), (3.0, True), (100.0, False)):
+        assert bool(told("spray_cone", *DUCT, f"nozzles.cone.rate_kg_s={times * rate}")) == known
+
+
 @pytest.mark.parametrize("scene", ["bubbling_bed", "cylindrical_bed", "fluidised_column"])
 def test_beds_are_not(scene):
     case = cases.load(scenes.HERE / scene / "case.toml")

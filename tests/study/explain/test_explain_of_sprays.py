@@ -8,7 +8,7 @@ from sdph import scenes
 from sdph.case import judge
 from sdph.case import read as cases
 from sdph.schema import CaseError
-from sdph.study.explain import estimate, feed, pace, tables
+from sdph.study.explain import droplets, estimate, feed, pace, tables
 
 
 def case_of(scene, *more):
@@ -141,6 +141,18 @@ def test_effects_of_a_fluid_are_told_where_droplets_hardly_meet():
         (FLUID.replace("granular_p", "gas_p"),),
     ):
         assert not [text for text in tables.warnings(case_of("spray_cone", *fewer)) if "are no fluid" in text]
+
+
+@pytest.mark.parametrize("times, finer, called", [(1.0, 1.0, False), (20.0, 40.0, False), (20.0, 1.0, True)])
+def test_no_effect_of_a_fluid_is_called_for_where_droplets_hardly_meet(times, finer, called):
+    """What a run would warn of when it is on, `explain` does not call for; a run of a minute leaves time to collide."""
+    (name, nozzle), *_ = case_of("spray_cone").nozzles.items()
+    rate = f"nozzles.{name}.rate_kg_s={times * nozzle.rate}"
+    spacing = f"resolution.spacing_mm={1e3 * case_of('spray_cone').resolution.spacing / finer}"
+    case = case_of("spray_cone", FLUID, rate, spacing, "run.end_time_s=60", "grains.restitution=0.9")
+    found = set(judge.called_for(case)) & set(droplets.OF_A_FLUID)
+    assert bool(found) == called
+    assert bool(droplets.flying(judge.scales_of(case), case.effects)) != called
 
 
 def test_droplets_are_priced_by_whether_their_sizes_differ():
