@@ -91,10 +91,23 @@ def unlike(case: Case) -> list[str]:
         lines.append("D32 is left out: no effect of the run follows the sizes of its droplets")
     if not {"outflow", "walls"} & set(case.effects):
         lines.append("OpenFOAM's droplets leave at every side, those of the run fly on outside of the gas (outflow)")
+    lines += _of_walls(case)
     if "gas_pressure" in case.effects:
         lines.append("OpenFOAM's droplets do not feel the gradient of the gas's pressure, those of the run do")
     if touching := [name for name in CONTACT if name in case.effects]:
         lines.append(f"OpenFOAM's droplets pass through each other, those of the run have {', '.join(touching)}")
+    return lines
+
+
+def _of_walls(case: Case) -> list[str]:
+    lines, own = [], case.parameters.get("walls")
+    if own and own.friction:
+        lines.append(f"OpenFOAM's droplets slide along walls freely, the run has walls.friction={own.friction:g}")
+    if "drag" in case.effects and any(boundary.kind == "wall" for boundary in case.boundaries.values()):
+        lines.append(
+            "within a cell of a wall OpenFOAM's droplets feel gas that the wall slows (cellPoint), those of the run "
+            "that of the cells around them: in a duct of few cells across OpenFOAM's lag behind"
+        )
     return lines
 
 

@@ -192,6 +192,10 @@ def test_what_is_not_alike_is_told():
     assert "droplets of top part in flight" in told and "(size_classes=5)" in told
     alike = {"coupling": {"voidage": False, "film": True}, "nozzles": {"top": TOP | {"diameter_std_mm": 0.0}}}
     assert len(droplet_cloud.unlike(case(**alike))) == 2  # the room of the droplets, how vapour spreads
+    held = alike | {"effects": [*EFFECTS, "walls"], "walls": {"friction": 0.1}, "boundaries": WIND | {
+        "out": {"kind": "pressure_outlet", "side": "right"}, "walls": {"kind": "wall"}}}  # fmt: skip
+    by_walls = "\n".join(set(droplet_cloud.unlike(case(**held))) - set(droplet_cloud.unlike(case(**alike))))
+    assert by_walls.count("\n") == 1 and "walls.friction=0.1" in by_walls and "(cellPoint)" in by_walls
     kept = [name for name in EFFECTS if name != "outflow"]
     other = {
         "drag": {"law": "gidaspow"},
