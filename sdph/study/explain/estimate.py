@@ -62,6 +62,7 @@ ADDED_MASS_WHY = (
     "the gas that light grains push aside swings them by its pressure gradient, each window further than the one "
     "before, however short; make the grains heavier, or leave out gas_pressure"
 )
+OTHER = 1.5  # times the cells of a mesh, or one over them, that cell_mm may be; our choice
 OWN_FIELD = 0.1  # our choice: of a force that is left out
 OWN_FIELD_WHY = "charged grains drive each other apart, which is left out; charge or number of them must be less"
 THICKENING = "the share of a cell's gas that comes as vapour, or of its oxidant that burns: an estimate"
@@ -133,10 +134,27 @@ def warnings(case, edges=None) -> list[str]:
     the answer."""
     given, warm = case.coupling.window_tolerance, "heat" in case.effects
     told = [NO_GRAINS] * (not (case.particles or case.nozzles)) + [LOOSE.format(given=given)] * (warm and given >= 1.0)
-    return told + [
-        f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
-        for r in ratios(case, edges)
-        if r["safe"] == "NO"
+    return (
+        told
+        + _other_cells(case, edges)
+        + [
+            f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
+            for r in ratios(case, edges)
+            if r["safe"] == "NO"
+        ]
+    )
+
+
+def _other_cells(case, edges) -> list[str]:
+    """A line where the cells of the mesh of the gas are not as large as the case says."""
+    cell = case.resolution.cell
+    if not edges or edges[0] / OTHER <= cell <= edges[1] * OTHER:
+        return []
+    narrow, wide = (f"{1e3 * edge:.3g}" for edge in edges)
+    sizes = narrow if narrow == wide else f"{narrow} to {wide}"
+    return [
+        f"resolution.cell_mm = {1e3 * cell:g}, and the cells of the mesh of the gas are {sizes} mm: windows are "
+        "chosen by cell_mm; give it as the mesh is"
     ]
 
 

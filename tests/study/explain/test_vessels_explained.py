@@ -75,6 +75,17 @@ def test_a_closed_vessel_of_ones_own_is_refused(tmp_path, capsys):
     assert "boundaries.inlet is a velocity_inlet" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("edges, told", [
+    ((0.008, 0.02), ""), ((0.02, 0.02), ""), ((0.012, 0.012), "are 12 mm"), ((0.031, 0.05), "are 31 to 50 mm"),
+    (None, ""),
+])  # fmt: skip
+def test_cells_that_are_not_those_of_the_mesh_are_told(edges, told):
+    """Windows are chosen by resolution.cell_mm, 20 mm here."""
+    case = cases.load(BED, ("resolution.cell_mm=20",))
+    found = [text for text in estimate.warnings(case, edges) if text.startswith("resolution.cell_mm")]
+    assert len(found) == bool(told) and told in "".join(found)
+
+
 def test_cells_of_an_own_mesh_are_judged_where_grains_stand():
     """Not by resolution.cell_mm, and by the largest: one of 20 mm among grains, one of 90 mm far above them."""
     mesh = row([0.01, 0.02, 0.01, 0.09])
