@@ -48,13 +48,14 @@ def at(own: Shot, places: np.ndarray) -> dict[str, np.ndarray]:
 
 def line(folder: Path, start, end, count: int, time: float | None) -> dict[str, np.ndarray]:
     """Fields at `count` points from `start` to `end` (d,) [m]: columns, of vectors one for each axis."""
-    ends = np.array([[*map(float, point), 0.0][:3] for point in (start, end)])
+    own, ends = shot.of_folder(folder, time), np.array([[*map(float, point), 0.0][:3] for point in (start, end)])
+    ends[:, own.dimensions :] = 0.0  # where a plane run lies, however deep its mesh is
     if count < 2 or not np.isfinite(ends).all() or (ends[0] == ends[1]).all():
         raise CaseError(f"a line from {list(start)} to {list(end)} of {count} points; give two places and 2 or more")
     share = np.linspace(0.0, 1.0, count)
     places = ends[0] + share[:, None] * (ends[1] - ends[0])
     columns = {"distance": share * np.linalg.norm(ends[1] - ends[0]), "position": places}
-    return _flat(columns | at(shot.of_folder(folder, time), places))
+    return _flat(columns | at(own, places))
 
 
 def _flat(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:

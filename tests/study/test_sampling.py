@@ -42,6 +42,8 @@ def test_a_line_has_the_fields_along_it(folder):
     assert np.isnan(found["velocity_x"][found["distance"] > 1.05]).all()
     assert found["gas_pressure"][0] == 3.0 * 0.125 and found["gas_velocity_x"] == pytest.approx(3.0)
     assert not {"ident", "kind"} & found.keys()
+    deep = sampling.line(folder, (0.0, 0.5, 0.005), (2.0, 0.5, 0.005), 21, 1.0)  # the middle of a mesh that is deep
+    assert all(np.array_equal(values, deep[name], equal_nan=True) for name, values in found.items())
 
 
 def test_a_plane_is_a_grid_of_points(folder):

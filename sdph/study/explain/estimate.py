@@ -134,15 +134,12 @@ def warnings(case, edges=None) -> list[str]:
     the answer."""
     given, warm = case.coupling.window_tolerance, "heat" in case.effects
     told = [NO_GRAINS] * (not (case.particles or case.nozzles)) + [LOOSE.format(given=given)] * (warm and given >= 1.0)
-    return (
-        told
-        + _other_cells(case, edges)
-        + [
-            f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
-            for r in ratios(case, edges)
-            if r["safe"] == "NO"
-        ]
-    )
+    told += _other_cells(case, edges)
+    return told + [
+        f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
+        for r in ratios(case, edges)
+        if r["safe"] == "NO"
+    ]
 
 
 def _other_cells(case, edges) -> list[str]:
