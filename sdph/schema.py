@@ -177,9 +177,10 @@ def flat(table: dict, prefix: str = "") -> dict:
 
 
 def unknown(given: str, known, where: str = "") -> str:
-    """The message for a word that is not known, with the nearest one that is."""
-    prefix = f"{where}." if where else ""
-    near = difflib.get_close_matches(given.rpartition(".")[2], list(known), n=1, cutoff=0.4)
+    """The message for a word that is not known, with the one that lacks but its unit, or else the nearest that is."""
+    prefix, word = f"{where}." if where else "", given.rpartition(".")[2]
+    longer = sorted((own for own in known if own.startswith(f"{word}_")), key=len)
+    near = longer or difflib.get_close_matches(word, list(known), n=1, cutoff=0.4)
     hint = f"did you mean {prefix}{near[0]}?" if near else ""
     return f"unknown key {given}; {hint} known here: {', '.join(sorted(known))}"
 

@@ -92,6 +92,7 @@ def test_optional_sections_read_back():
     [
         ("resolution.spacing_cm=0.25", "did you mean resolution.spacing_mm?"),
         ("resolution.spaceing_mm=2.5", "did you mean resolution.spacing_mm?"),
+        ("nozzles.any.rate=0.25", "did you mean nozzles.any.rate_kg_s?"),
         ("particles.disc.raduis_m=0.1", "did you mean particles.disc.radius_m?"),
         ("coupling.one_wey=true", "did you mean coupling.one_way?"),
         ("coupling.ranks=2", "did you mean coupling.gas_ranks?"),  # its name up to 0.1.0
