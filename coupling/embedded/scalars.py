@@ -66,9 +66,9 @@ class Scalars:
     def _crossed(self, mass: np.ndarray, warmth: np.ndarray, vapour: np.ndarray) -> np.ndarray:
         """(P, 4) of `coupling.gas.Budget.crossed`, of what goes through faces (d, S) [kg, J, kg]."""
         box, found = self.box, np.zeros((len(self.box.names), 4))
-        out, *with_it = (box.outward(own) for own in (mass, warmth, vapour))
-        leaves = out > 0.0
-        parts = np.maximum(-out, 0.0), np.maximum(out, 0.0), *(np.where(leaves, own, 0.0) for own in with_it)
+        through = [box.outward(own) for own in (mass, warmth, vapour)]
+        leaves = through[0] > 0.0
+        parts = np.where(leaves, 0.0, -through[0]), *(np.where(leaves, own, 0.0) for own in through)
         np.add.at(found, box.faces.owner, np.stack(parts, axis=1))
         return found
 

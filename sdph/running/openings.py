@@ -1,4 +1,4 @@
-"""What gas goes through the openings of a vessel: how much comes in and leaves, how warm, with how much vapour."""
+"""Gas through the openings of a vessel: how much comes in and leaves, how warm, with how much vapour."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a run has become steady: its curves over the third and over the fourth quarter of its time.
+"""Steadiness of a run: its curves over the third and over the fourth quarter of its time.
 
 Each quarter is cut into batches, whose means are all but independent of each other if they are longer than the flow
 remembers: the scatter of these is the doubt about the mean of the quarter (batch means; Law 2014, Simulation Modeling

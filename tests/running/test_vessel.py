@@ -25,7 +25,6 @@ from sdph.show import timeline
 from tests.of_ranks import Among, together
 
 KINDS = ("pressure", "friction")
-RADIUS = 0.1  # m, of the vessel
 INSIDE = {"shape": "walls", "mass_kg": 2.0, "volume_fraction": 0.6, "temperature_K": 350.0, "disorder": 0.1}
 
 
@@ -107,19 +106,6 @@ def test_grains_outside_the_gas_are_refused_with_region_count_and_place(tmp_path
     assert main(["run", str(own), "--gas", "openfoam", "--out", str(tmp_path / "out")]) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert "particles.bed holds " in said and "in no cell of the gas, the first at (0.005, 0.005, 0.005) m" in said
-
-
-@pytest.mark.openfoam
-def test_a_probe_in_no_cell_is_refused_and_one_at_the_wall_is_not(tmp_path, capsys):
-    own = filled(tmp_path / "own", INSIDE)
-    assert main(["run", str(own), "--set", "probes.far.at_m=[0.002, 0.002, 0.05]", "--out", str(tmp_path / "out")]) == 2
-    said = capsys.readouterr().err.splitlines()[-1]
-    assert "probes.far.at_m = (0.002, 0.002, 0.05) m is in no cell of the gas: the nearest, at (" in said
-    assert not (tmp_path / "out").exists()
-    cell = float(said.partition("is in no cell")[2].partition(" m away")[0].split()[-1])
-    assert cell == pytest.approx(math.hypot(RADIUS - 0.002, RADIUS - 0.002) - RADIUS, rel=0.05)
-    at_wall = ("--set", f"probes.near.at_m=[{RADIUS}, {1e-4}, 0.05]")
-    assert main(["explain", str(own), *at_wall]) == 0
 
 
 @pytest.mark.openfoam
