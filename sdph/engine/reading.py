@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 # of a file, of what becomes of it, of lists in lists; our choice
-JSON_BYTES, JSON_MEMORY, JSON_DEPTH = 2**28, 2**28, 64
+JSON_BYTES, JSON_MEMORY, JSON_DEPTH = 2**27, 2**27, 64
 ENTRY = 100  # bytes of memory that a value of JSON takes at most, its text left out
 DIRECTORY = 2**22  # bytes of the list of arrays in a file, some 40 000; our choice
 # of a zip file (APPNOTE.TXT 4.3): signature, bytes of the list
