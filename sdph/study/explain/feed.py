@@ -6,12 +6,14 @@ a nozzle feeds at a constant rate there is C t to exchange after the time t. Eac
 rates of
 
 - the grains, 1/(heat time), and
-- the gas among them, 1/(its heat time), thinned out as a cone spreads on half of its way; gas that is passed faster
-  than that is met anew once in 2 h and a cell, as far as a particle reaches: no rate is above speed/(2 h + cell).
+- the gas among them, 1/(its heat time), thinned out as a cone spreads on half of its way, and as gas draws them apart
+  that flows faster; gas that is passed faster than that is met anew once in 2 h and a cell, as far as a particle
+  reaches: no rate is above speed/(2 h + cell).
 
 So what is exchanged is (1 - exp(-r t)) C, and changes at the sum r of the two rates. A jet that does not spread meets
-new gas at its rim, as thick as the gas takes to follow it or as the kernel resolves, for as long as it is there. These
-are estimates: the rates are those of the speed at the mouth, and how gas and droplets mix is not known before the run.
+new gas at its rim, as thick as the gas takes to follow it or as the kernel resolves, until its grains are as warm as
+that. What has gone out has nothing more to exchange: t is at most as long as grains stay. These are estimates: the
+rates are those of the speed at the mouth, and how gas and droplets mix is not known before the run.
 """
 
 from __future__ import annotations
@@ -35,11 +37,13 @@ class Feed:
         angle = math.tan(nozzle.half_angle)
         way = min(s.thrown * s.coasting, *case.domain.size)
         thinned = (s.length / (s.length + way * angle)) ** (case.dimensions - 1)
+        thinned *= min(1.0, s.thrown / speed(case, s))  # gas that carries them off draws them apart
         reach = 2.0 * case.smoothing_length + smallest_cell(case)
         renewed = min(thinned / s.gas_heat_time, s.thrown / reach)
         self.rate = 1.0 / s.heat_time + renewed  # r [1/s]
         thick = 2.0 * max(s.thrown * s.gas_drag_time, case.smoothing_length)
         self.rim = 0.0 if angle else renewed * min(1.0, thick / s.length)  # [1/s]
+        self.warm, self.stay = s.heat_time, staying(case, s)  # s
         # a particle is in the gas once the middle of its layer is past the mouth
         self.start = nozzle.start + 0.5 * case.resolution.spacing / nozzle.speed
         self.end, self.rates = nozzle.end or case.run.end_time, nozzle.rates
@@ -49,14 +53,20 @@ class Feed:
         """Heat to exchange at a time [s]; of a rate against time, in units of a second of its largest."""
         if self.rates:
             before, passed = rates.passed(self.rates, np.array([self.start, min(time, self.end)]))
-            return max(0.0, float(passed - before)) / max(rate for _, rate in self.rates)
-        return max(0.0, min(time, self.end) - self.start)
+            fed = float(passed - before) / max(rate for _, rate in self.rates)
+        else:
+            fed = min(time, self.end) - self.start
+        return min(max(0.0, fed), self.stay)
+
+    def share(self, fed: float) -> float:
+        """Heat that was exchanged at a time at which so much was fed, of a second's."""
+        return -math.expm1(-self.rate * fed) - self.rim * self.warm * math.expm1(-fed / self.warm)
 
     def window(self, time: float, dt: float) -> tuple[float, float]:
         """Heat that a window of `dt` [s] from a time [s] exchanges, and the change of its rate since the last one."""
         fed, flow = self.stake(time), 0.0
         if fed > 0.0:
-            flow = (-math.expm1(-self.rate * fed) + self.rim * fed) * math.exp(-self.rate * max(0.0, time - self.end))
+            flow = self.share(fed) * math.exp(-self.rate * max(0.0, time - self.end))
             self.windows += 1
         change = flow * -math.expm1(-self.rate * dt) if self.windows > 1 else 0.0
         return flow * dt, change
@@ -69,8 +79,7 @@ class Feed:
     def longest(self, tolerance: float) -> float:
         """Window [s] that the heat allows half-way."""
         fed = 0.5 * self.stake(self.end)
-        share = -math.expm1(-self.rate * fed) + self.rim * fed
-        return SAFETY * math.sqrt(2.0 * tolerance * fed / (share * self.rate)) if fed > 0.0 else math.inf
+        return SAFETY * math.sqrt(2.0 * tolerance * fed / (self.share(fed) * self.rate)) if fed > 0.0 else math.inf
 
 
 class Feeds:
@@ -122,14 +131,23 @@ def incoming(case) -> tuple[int, float]:
     for one in apart(case)[: len(case.nozzles)]:
         (nozzle,), s = one.nozzles.values(), scales_of(one)
         pace = layer(one, nozzle) * nozzle.speed / one.resolution.spacing  # particles in a second
-        speed = s.thrown * s.coasting / end + s.falling + s.blown
-        stay = max(one.domain.size) / speed if "outflow" in one.effects and speed > 0.0 else math.inf
+        stay = staying(one, s)
         first, last = nozzle.start, nozzle.start + lasting(one, nozzle)
         leaves = min(last, max(first, end - stay))  # who comes later is still there at the end
         most += pace * min(stay, lasting(one, nozzle))
         there = (leaves - first) * stay if leaves > first else 0.0
         mean += pace * (there + 0.5 * ((end - leaves) ** 2 - (end - last) ** 2)) / end
     return math.ceil(most), mean
+
+
+def staying(case, s) -> float:
+    """Time [s] in which grains of scales `s` go through the domain; inf where they cannot leave it."""
+    return max(case.domain.size) / speed(case, s) if "outflow" in case.effects and speed(case, s) > 0.0 else math.inf
+
+
+def speed(case, s) -> float:
+    """Mean speed [m/s] of grains of scales `s`, all that moves them counted."""
+    return s.thrown * s.coasting / case.run.end_time + s.falling + s.blown
 
 
 def lasting(case, nozzle) -> float:

@@ -1,6 +1,7 @@
 """Sprays are told neither of walls that they do not reach nor of shocks where droplets pass through each other."""
 
 import dataclasses
+from pathlib import Path
 
 import pytest
 
@@ -170,3 +171,15 @@ def test_droplets_are_priced_by_whether_their_sizes_differ():
     case = cases.from_table(table | {"effects": [name for name in table["effects"] if name != "evaporation"]})
     (row,) = [row for row in estimate.expected(case, judge.scales_of(case)) if row["what"] == "wall time"]
     assert "exchange" not in row["how"]
+
+
+def test_windows_of_a_feed_that_a_stream_carries_off_are_foretold(tmp_path):
+    """Sand of a riser comes to the gas's temperature, drawn apart six times, and leaves: docs/howto/riser.md had 1448
+    windows to 0.6 s (30 November 2026, embedded gas)."""
+    page = (Path(__file__).parents[3] / "docs" / "howto" / "riser.md").read_text()
+    (tmp_path / "riser.toml").write_text(page.partition("```toml\n")[2].partition("```")[0])
+    case = cases.load(tmp_path / "riser.toml", ("coupling.gas='embedded'",))
+    rows = {row["what"]: row["value"] for row in estimate.expected(case, judge.scales_of(case))}
+    assert rows["windows"] == pytest.approx(1448, rel=0.3)
+    fed = feed.of(case, judge.scales_of(case))
+    assert fed.stake(10.0) == fed.stake(20.0) < 0.2  # no more than is there at once
