@@ -149,10 +149,12 @@ def scene_module(scene: str):
 
 
 def table(checks: list[dict]) -> str:
-    """The checks as text, one line each."""
-    head = f"{'check':72s} {'value':>14s} {'reference':>14s} {'difference':>12s} {'tolerance':>11s}"
-    row = "{name:72s} {value:14.7g} {reference:14.7g} {difference:12.3g} {tolerance:11.3g} {verdict}"
-    lines = [
-        row.format(difference=c["value"] - c["reference"], verdict="ok" if c["ok"] else "FAILED", **c) for c in checks
-    ]
+    """The checks as text, one line each; the share by which one is off stands where its reference is not 0."""
+    head = f"{'check':72s} {'value':>14s} {'reference':>14s} {'difference':>12s} {'off':>10s} {'tolerance':>11s}"
+    row = "{name:72s} {value:14.7g} {reference:14.7g} {difference:12.3g} {off:>10s} {tolerance:11.3g} {verdict}"
+    lines = []
+    for c in checks:
+        difference = c["value"] - c["reference"]
+        off = f"{100.0 * difference / abs(c['reference']):+.3g} %" if c["reference"] else ""
+        lines.append(row.format(difference=difference, off=off, verdict="ok" if c["ok"] else "FAILED", **c))
     return "\n".join([head, *lines])
