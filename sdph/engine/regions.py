@@ -91,10 +91,8 @@ def counted(region, low, high, walls, layers: float, spacing: float) -> float:
         places = places[_surface(region).distance(places) < 0.0]
     if walls is None or not len(places):
         return each * len(places)
-    surface = facets.Surface(walls)
-    off = surface.distance(places)
-    behind = (off <= 0.0) & (surface.closed or region.shape == "walls" or off >= -layers * spacing)
-    return each * int((~behind).sum())
+    layers = math.inf if region.shape == "walls" else layers
+    return each * int(in_front(places, walls, spacing, layers, near=2.0 * SAME).sum())
 
 
 def _surface(region):
@@ -148,12 +146,14 @@ def _in_cone(region, places, low) -> np.ndarray:
 
 def in_front(places, walls, spacing: float, layers: float, near: float = CONTACT) -> np.ndarray:
     """Mask (N,) of the places that stand in front of facets (F, d, d) [m] of walls, no nearer than `near` spacings
-    (usual: than contact holds grains), or so far behind an open one that it is none to them: its dummies are `layers`
-    spacings deep."""
-    surface = facets.Surface(walls)
-    off = surface.distance(places)
-    front = off >= (near - SAME) * spacing
-    return front if surface.closed else front | (off < -layers * spacing)
+    (usual: than contact holds grains), or so far behind an open part of them that it is none to them: its dummies are
+    `layers` spacings deep."""
+    front, closed = np.ones(len(places), bool), facets.of_closed_parts(walls)
+    for own, deep in ((walls[closed], math.inf), (walls[~closed], layers * spacing)):
+        if len(own):
+            off = facets.Surface(own).distance(places)
+            front &= (off >= (near - SAME) * spacing) | (off < -deep)
+    return front
 
 
 def below(where: str, region, places, up, spacing: float, each: float, world=ALONE) -> np.ndarray:

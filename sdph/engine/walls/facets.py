@@ -131,6 +131,21 @@ class Surface:
         return np.where(found > 0.0, np.minimum(found, np.abs(_distance(self.sheets, places))), found)
 
 
+def parts(corners: np.ndarray) -> np.ndarray:
+    """Number (F,), from 0, of the part that each of the facets (F, d, d) is of: those of a part hang together by their
+    corners."""
+    point = numbered(corners)
+    first = np.repeat(point[:, 0], point.shape[1])
+    links = scipy.sparse.coo_matrix((np.ones(point.size), (point.ravel(), first)), shape=(point.max() + 1,) * 2)
+    return scipy.sparse.csgraph.connected_components(links, directed=False)[1][point[:, 0]]
+
+
+def of_closed_parts(corners: np.ndarray) -> np.ndarray:
+    """Mask (F,) of the facets (F, d, d) of parts without a free side."""
+    part = parts(corners)
+    return np.array([Surface(corners[part == n]).closed for n in range(part.max() + 1)])[part]
+
+
 def _distance(mesh, places: np.ndarray) -> np.ndarray:
     """The same from triangles."""
     import pyvista

@@ -250,7 +250,12 @@ def _reached(case, where: str, region, points, walls, each: float, notices, worl
     if walls is not None:
         points = points[regions.in_front(points, walls, spacing, deep(case))]
         if region.shape != "walls" and (left := world.sum(len(points))) < there:
-            notices.append(f"{where}: {there - left} of {there} particles would stand in walls and are left out")
+            turned = "; the normals of walls.mesh must point towards the grains" * (
+                left < 0.5 * there and deep(case) < math.inf
+            )
+            notices.append(
+                f"{where}: {there - left} of {there} particles would stand in walls and are left out{turned}"
+            )
     if not world.any(len(points) > 0):
         what = f"none of its {there} places" if there else "no place"
         mesh = "walls.mesh; look at its normals, or move the region"

@@ -19,8 +19,8 @@ def checked(case) -> list[str]:
         return []
     key, corners = f"walls.mesh = {own.mesh!r}", facets.read(own.mesh, case.dimensions, own.mesh_scale)
     rims = facets.Surface(corners).rims()
-    inside_out = [name for name, region in case.particles.items() if region.shape == "walls"]
-    inside_out = inside_out if facets.enclosed(corners) < 0.0 else []
+    filling, parts = [name for name, region in case.particles.items() if region.shape == "walls"], facets.parts(corners)
+    inside_out = filling if facets.enclosed(corners) < 0.0 else []
     if inside_out and not rims:
         raise CaseError(
             f'particles.{inside_out[0]}.shape = "walls", and {key} is closed and inside out: its normals point out of '
@@ -28,8 +28,18 @@ def checked(case) -> list[str]:
         )
     gaps = [rim for rim in rims if not _in_a_side(case, rim[0])]
     told = [_open(key, gaps)] if gaps else []
+    if rims and parts.max():
+        told += [_of_several(name, key, parts.max() + 1) for name in filling]
     turned = f"{key} is inside out: its normals point out of what it encloses, and must point towards the grains"
     return told + [f'particles.{name}.shape = "walls", and {turned}' for name in inside_out]
+
+
+def _of_several(name: str, key: str, count: int) -> str:
+    """A line on a region that fills an open surface of several parts."""
+    return (
+        f'particles.{name}.shape = "walls" fills what lies in front of {key}, which is open and has {count} parts: each '
+        "place by the part that is nearest; look at the start, or give a box, or another region"
+    )
 
 
 def _in_a_side(case, middle) -> bool:

@@ -110,6 +110,21 @@ def test_grains_around_a_closed_body_are_what_was_meant(tmp_path):
     assert len(places) > 1000 and not [line for line in notices if "inside out" in line or "is open" in line]
 
 
+def test_an_open_plate_elsewhere_lets_no_grain_into_a_closed_body(tmp_path):
+    """A thousand grains stood deep in the body as soon as any part of the walls was open."""
+    body, plate = tube(True), pyvista.Plane(center=(0.03, 0.15, 0.15), direction=(1, 0, 0), i_size=0.1, j_size=0.04)
+    body.save(tmp_path / "body.stl")
+    body.append_polydata(plate.triangulate()).save(tmp_path / "both.stl")
+    box = {"shape": "box", "lower_m": [0.05, 0.05, 0.05], "upper_m": [0.25] * 3}
+    alone, beside = (told(tmp_path / name, **box)[1] for name in ("body.stl", "both.stl"))
+    np.testing.assert_array_equal(beside, alone)
+    case = cases.from_table(table(tmp_path / "both.stl", **box))
+    outside = 0.2**2 * 0.2 - 24 * math.sin(math.pi / 24) * 0.01 * 0.2
+    assert start.meant(case, case.particles["bed"]) == pytest.approx(0.5 * 2500.0 * outside, rel=0.02)
+    notices = told(tmp_path / "both.stl")[0]
+    assert any("which is open and has 2 parts" in line for line in notices)
+
+
 def test_a_plate_and_a_polygon_in_two_dimensions(tmp_path):
     places, ends = np.array([(0.05, 0.1, 0.0), (0.25, 0.1, 0.0), (0.15, 0.25, 0.0)]), np.array([[0, 1], [1, 2], [2, 0]])
     box = {"shape": "box", "lower_m": [0.0, 0.0], "upper_m": [0.3, 0.3]}
