@@ -63,6 +63,17 @@ def johnson_jackson_wall(specularity, alpha_p, theta, g0, density, alpha_max):
     return specularity * math.pi * density * alpha_p * g0 * math.sqrt(3.0 * theta) / (6.0 * alpha_max)
 
 
+@law
+def load_of_pressure(alpha_p, restitution, g0, alpha_max):
+    """Lun's pressure over the load of the collisions that `johnson_jackson_wall` counts, (1 + e) pi rho_p alpha_p g0
+    theta/(2 alpha_max sqrt(6 pi)) [-].
+
+    The stress of `sliding_specularity` is mu of that load where all grains slide; a wall bears the pressure.
+    """
+    collisions = (1.0 + restitution) * math.pi * g0 / (2.0 * alpha_max * math.sqrt(6.0 * math.pi))
+    return (1.0 + 2.0 * (1.0 + restitution) * alpha_p * g0) / collisions
+
+
 def sliding(friction, restitution):
     """Coefficient of a collision with a wall k [-] = 7/2 mu (1 + e), mu Coulomb's coefficient and e the restitution of
     a grain on it: a grain slides where its speed along the wall is more than k times that towards it.

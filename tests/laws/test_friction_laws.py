@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sdph.laws import friction
+from sdph.laws import friction, granular
 from sdph.laws.constants import FRICTION_ETA, FRICTION_FR, FRICTION_P
 
 JOHNSON_JACKSON = 0.6, 0.63, FRICTION_FR, FRICTION_ETA, FRICTION_P
@@ -85,6 +85,16 @@ def test_smooth_walls_begin_straight():
     assert friction.sticking_specularity(0.0, 0.9) == 0.0
     below, above = (friction.sticking_specularity((0.2 + s) / 7.0, 1.0) for s in (-1e-9, 1e-9))
     assert below == pytest.approx(0.2 * 0.0909457, rel=1e-6) and above == pytest.approx(below, rel=0.02)
+
+
+@given(alpha_p=st.floats(0.01, 0.6), mu=st.floats(0.01, 1.0), e=st.floats(0.1, 1.0), slip=st.floats(50.0, 1e3))
+def test_grains_that_all_slide_rub_by_coulombs_part_of_the_pressure(alpha_p, mu, e, slip):
+    theta, density, most = 0.01, 2500.0, 0.63
+    g0 = granular.sinclair_jackson(alpha_p, most)
+    phi = friction.sliding_specularity(friction.sticking_specularity(mu, e), friction.sliding(mu, e), slip, theta)
+    k = friction.johnson_jackson_wall(phi, alpha_p, theta, g0, density, most)
+    stress = k * friction.load_of_pressure(alpha_p, e, g0, most) * slip
+    assert stress == pytest.approx(mu * granular.lun_pressure(alpha_p, theta, e, g0, density), rel=1e-9)
 
 
 @given(mu=st.floats(0.01, 1.0), theta=st.floats(1e-6, 1.0), fast=st.floats(1.0, 100.0))

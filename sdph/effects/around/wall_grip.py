@@ -66,5 +66,6 @@ def grip(p, stick, y, density, grain_density, theta, shear, speed):
     diffuse = p.specularity
     if p.sliding > 0.0:
         diffuse = law.sliding_specularity(diffuse, p.sliding, speed, theta)
+        diffuse *= law.load_of_pressure(a, p.bounce, g0, p.packing)
     k = law.johnson_jackson_wall(diffuse, a, theta, g0, grain_density, p.packing)
     return k * y / (k * y + shear) if k > 0.0 else 0.0

@@ -50,12 +50,14 @@ class Walls:
 
 
 class WallsP(NamedTuple):
-    """Specularity (-1: no slip) and what it changes by as grains slide, restitution, contact distance and spacing [m],
-    penalty [1/s], 1 for the paper's force, packing limit, grain density [kg/m3], Coulomb's
-    coefficient of a contact and the share of the traction of contacts that a wall that grips takes [-]."""
+    """Specularity (-1: no slip), what it changes by as grains slide, and restitution of a grain on the wall;
+    restitution, contact distance and spacing [m] of a particle, penalty [1/s], 1 for the paper's force, packing limit,
+    grain density [kg/m3], Coulomb's coefficient of a contact and the share of the traction of contacts that a wall that
+    grips takes [-]."""
 
     specularity: float
     sliding: float
+    bounce: float
     restitution: float
     contact: float
     spacing: float
@@ -72,7 +74,7 @@ def kernel(case) -> WallsP:
     gravity = float(np.linalg.norm(case.domain.gravity)) or 1.0
     penalty = own.penalty * math.sqrt(gravity / case.smoothing_length)
     return WallsP(
-        *specularity(own, case.grains.restitution), own.restitution, CONTACT * spacing, spacing,
+        *specularity(own, case.grains.restitution), case.grains.restitution, own.restitution, CONTACT * spacing, spacing,
         penalty, MODELS.index(own.model), case.grains.packing_limit, case.grains.density,
         *coulomb(case, own),
     )  # fmt: skip

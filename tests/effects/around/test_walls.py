@@ -85,11 +85,13 @@ def test_specular_plates_hold_back_with_the_stress_of_johnson_and_jackson(tmp_pa
 
 def test_plates_of_a_friction_hold_back_by_li_and_benyahia(tmp_path):
     """A stress k u with the specularity of that slip, or of the speed of the grains that a plate sees, a spacing and a
-    half away at most; grains that stuck to it would slip by 15 % less."""
-    mu, push = 0.02, 5.0
+    half away at most, by the load that is the pressure; grains that stuck to it would slip by 15 % less."""
+    mu = 0.02
+    load = (1.0 + 2.0 * 1.9 * ALPHA_P * G0) * 2.0 * 0.63 * np.sqrt(6.0 * np.pi) / (1.9 * np.pi * G0)
+    push = 5.0 * load
     sliding, sticking = 3.5 * mu * 1.9, friction.sticking_specularity(mu, 0.9)
     stress = 0.5 * ALPHA_P * DENSITY * HEIGHT * push
-    per = np.pi * DENSITY * ALPHA_P * G0 * np.sqrt(3.0 * THETA) / (6.0 * 0.63)  # k over the specularity [Pa s/m]
+    per = load * np.pi * DENSITY * ALPHA_P * G0 * np.sqrt(3.0 * THETA) / (6.0 * 0.63)  # k over the specularity [Pa s/m]
 
     def slip(height):
         faster = poiseuille(height, push)
