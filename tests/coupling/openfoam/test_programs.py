@@ -4,6 +4,7 @@ import signal
 
 import pytest
 
+from coupling.openfoam.programs import install
 from coupling.openfoam.programs import run as programs
 
 RESIDUAL = "smoothSolver:  Solving for T, Initial residual = 1.6e-14, Final residual = 1.6e-14, No Iterations 0\n"
@@ -58,3 +59,12 @@ def test_the_cause_is_told_and_not_a_residual(tmp_path, text, why):
 )
 def test_the_end_is_told(code, how):
     assert how in programs.ending(code)
+
+
+@pytest.mark.parametrize(("given", "told"), [(None, "1"), ("0", "0")])
+def test_ranks_that_wait_give_way_unless_told_otherwise(monkeypatch, given, told):
+    monkeypatch.delenv("OMPI_MCA_mpi_yield_when_idle", raising=False)
+    if given:
+        monkeypatch.setenv("OMPI_MCA_mpi_yield_when_idle", given)
+    command = install.mpirun(2)
+    assert command[command.index("mpi_yield_when_idle") - 1 :][:3] == ["--mca", "mpi_yield_when_idle", told]
