@@ -21,6 +21,7 @@ from sdph.laws.compiled import serial
 
 AROUND = 0.75  # spacings about a surface point that count as its own: points stand one spacing apart or closer
 EDGE = math.cos(SHARP)
+BATCH = 4096  # surface points that are asked at once for those near them, which bounds their lists; our choice
 FEET = 16  # of the dummies nearest to one that are asked for a facet beyond an edge; our choice
 SAME = 1e-6  # of a depth: round-off; our choice
 
@@ -162,18 +163,36 @@ def count_once(dummies, of_mesh, beyond, places, rows):
     return before, every
 
 
+def faced(dummies, of_mesh, spacing: float, reach: float) -> np.ndarray:
+    """Mask (W,) of the surface points that one which is turned against them is within `reach` [m] of: where there are
+    none a way goes in through no face and out through another."""
+    first = np.flatnonzero(of_mesh & (dummies.depth <= spacing))
+    places, normals = (
+        np.stack([getattr(dummies, name)[first] for name in names], axis=1)
+        for names in (("x", "y", "z"), ("normal_x", "normal_y", "normal_z"))
+    )
+    found, tree = np.zeros(len(dummies.x), bool), scipy.spatial.cKDTree(places)
+    for begin in range(0, len(first), BATCH):
+        near = tree.query_ball_point(places[begin : begin + BATCH], reach)
+        own, other = np.repeat(begin + np.arange(len(near)), [len(one) for one in near]), np.concatenate(near)
+        found[first[own[np.einsum("ij,ij->i", normals[own], normals[other.astype(int)]) < -EDGE]]] = True
+    return found
+
+
 @serial
-def part(dummies, of_mesh, spacing, places, wall_rows, rows):
+def part(dummies, of_mesh, faced, spacing, places, wall_rows, rows):
     """Take the neighbours out of the particles' rows that stand on the other side of a thin wall. A way that is shorter
-    than what lies between either end and the planes before it goes through none of them."""
+    than what lies between either end and the planes before it goes through none of them, and one between particles
+    that see a wall, but none that others face (`faced`), goes through no thin one."""
     x, y, z = places
     clear = clearances(dummies, of_mesh, spacing, places, wall_rows)
+    single = seen_alone(dummies, of_mesh, faced, spacing, places, wall_rows)
     for i in range(len(x)):
         kept = 0
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
             way = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2 + (z[j] - z[i]) ** 2
-            through = way >= clear[i] ** 2 or way >= clear[j] ** 2
+            through = (way >= clear[i] ** 2 or way >= clear[j] ** 2) and not (single[i] and single[j])
             if not (through and parted(dummies, of_mesh, spacing, places, wall_rows, i, j)):
                 rows.entries[place(rows, i, kept)] = j
                 kept += 1
@@ -192,6 +211,22 @@ def clearances(dummies, of_mesh, spacing, places, wall_rows):
                 over = height(dummies, w, x[i], y[i], z[i])
                 if 0.0 < over < found[i]:
                     found[i] = over
+    return found
+
+
+@serial
+def seen_alone(dummies, of_mesh, faced, spacing, places, wall_rows):
+    """Mask (N,) of the particles that see a surface point which they are in front of, and none that others face."""
+    x, y, z = places
+    found = np.zeros(len(x), np.bool_)
+    for i in range(len(x)):
+        sees, alone = False, True
+        for k in range(wall_rows.number[i]):
+            w = entry(wall_rows, i, k)
+            if of_mesh[w] and dummies.depth[w] <= spacing:
+                alone = alone and not faced[w]
+                sees = sees or height(dummies, w, x[i], y[i], z[i]) > 0.0
+        found[i] = sees and alone
     return found
 
 

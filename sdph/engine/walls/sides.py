@@ -21,6 +21,7 @@ from sdph.laws.kernels import SUPPORT
 LAYERS = 3  # the support of the kernel is 2 h = 3 spacings
 MESH = "mesh"  # name of all of `walls.mesh` in `run.forces`
 WIDER = 0.25  # spacings by which the box of a part is wider: round-off of surfaces that its faces lie in; our choice
+PAIR = 3  # rows from a surface point to one that a neighbour sees: to a particle, on to its neighbour, to the point
 OWNED = 2  # of a dummy of the first boundary; those of a mesh that no boundary is are 1
 
 
@@ -40,6 +41,8 @@ class Boundary:
         if self.of_mesh.any():
             first, plain = self.area > 0.0, self.of_mesh & ~curved
             self.beyond = sides.beyond(self.dummies, first, plain, self.feet, self.facing, self.spacing)
+            reach = PAIR * SUPPORT * case.smoothing_length * (1.0 + skin)
+            self.faced = sides.faced(self.dummies, self.of_mesh, self.spacing, reach)
 
     def rows(self, state_axes):
         """Dummies near each particle; valid as long as the particles' own rows."""
@@ -59,7 +62,7 @@ class Boundary:
     def part(self, rows, wall_rows, state_axes) -> None:
         """Take the pairs out of the particles' rows that a mesh lies between."""
         if self.of_mesh.any():
-            sides.part(self.dummies, self.of_mesh, self.spacing, sides.three(state_axes), wall_rows, rows)
+            sides.part(self.dummies, self.of_mesh, self.faced, self.spacing, sides.three(state_axes), wall_rows, rows)
 
     def shares(self, case, chosen) -> dict[str, np.ndarray]:
         """Share (W, 3) in the force on each dummy, by its components, of those of `chosen` names that are walls of

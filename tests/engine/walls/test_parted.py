@@ -10,6 +10,7 @@ from sdph.engine.walls import mesh
 from sdph.engine.walls.dummies import Dummies
 
 SPACING, DEPTH = 0.1, 0.08
+EVERYWHERE = 1e3  # m: all see all here
 AT = np.array([0.3, -0.2, 1.5])  # m, the point of the surface
 
 
@@ -35,23 +36,40 @@ def pair_of(walls, ends):
     return mesh.parted(*seen_by(walls, ends), 0, 1)
 
 
-@settings(max_examples=40, deadline=None)
-@given(seed=st.integers(0, 2**32 - 1), apart=st.floats(0.2, 3.0))
-def test_rows_lose_those_pairs_that_are_parted_and_no_others(seed, apart):
-    """A plate of points with both faces, tilted, and particles about it: most pairs are too near to need a look."""
+@settings(max_examples=60, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), apart=st.floats(0.2, 3.0), kind=st.sampled_from(("plate", "sheet", "edge")))
+def test_rows_lose_those_pairs_that_are_parted_and_no_others(seed, apart, kind):
+    """A plate of points with both faces, one face alone, or two at an angle, tilted, and particles about it: most pairs
+    are too near to need a look, or see no face that another is turned against."""
     rng = np.random.default_rng(seed)
     normal = rng.normal(size=3)
     normal /= np.linalg.norm(normal)
     along = np.linalg.svd(normal[None])[2][1:]
     ticks = SPACING * np.array([(i, j) for i in range(-2, 3) for j in range(-2, 3)])
-    walls = [(AT + side * 0.02 * normal + tick @ along, side * normal) for side in (1.0, -1.0) for tick in ticks]
+    walls = [(AT + 0.02 * normal + tick @ along, normal) for tick in ticks]
+    if kind != "sheet":
+        turn = np.pi if kind == "plate" else rng.uniform(0.0, np.pi)
+        other, way = (
+            c * normal + s * along[0] for c, s in ((np.cos(turn), np.sin(turn)), (-np.sin(turn), np.cos(turn)))
+        )
+        walls += [(AT - 0.02 * normal + tick @ np.array((way, along[1])), other) for tick in ticks]
     points = AT + SPACING * apart * rng.normal(size=(12, 3))
     asked = seen_by(walls, points)
+    wall, of_mesh, *rest = asked
     rows = every(len(points), len(points))
-    mesh.part(*asked, rows)
+    mesh.part(wall, of_mesh, mesh.faced(wall, of_mesh, SPACING, EVERYWHERE), *rest, rows)
     for i in range(len(points)):
         left = [j for j in range(len(points)) if not mesh.parted(*asked, i, j)]
         assert rows.entries[rows.start[i] : rows.start[i] + rows.number[i]].tolist() == left
+
+
+def test_faces_are_faced_by_what_is_turned_against_them_within_reach():
+    """Both faces of a plate, and of a channel that is narrower than the reach; not the sides of a block's edge."""
+    up, aside = np.array((0.0, 0.0, 1.0)), np.array((1.0, 0.0, 0.0))
+    walls = [(AT, up), (AT - 0.02 * up, -up), (AT + 5.0 * up, -up), (AT + 9.0 * aside, aside), (AT + 9.0 * aside, up)]
+    wall, of_mesh, *_ = seen_by(walls, [AT])
+    assert mesh.faced(wall, of_mesh, SPACING, 0.5).tolist() == [True, True, False, False, False]
+    assert mesh.faced(wall, of_mesh, SPACING, 6.0).tolist() == [True, True, True, False, False]
 
 
 def across(normal, aside):
