@@ -236,10 +236,12 @@ def expected(case, s, priced: prices.Priced | None = None) -> list[dict]:
         "gas": 1e-6 * windows * (priced.window + cells * priced.cell),
     }
     told = ", ".join(f"{name} {time:.2g} s" for name, time in parts.items() if time)
+    there = f"{start} at the start" if end > start else "all the time"
+    if (every := start + feed.brought_in(case)) > end:
+        there += f"; {every} at the end if none has left: these go through the domain once, and straight"
     how = f"one core, {priced.name}, warm; {told}; measured on {own.measured}"
     return [
-        {"what": "particles", "value": end, "unit": "",
-        "how": f"{start} at the start" if end > start else "all the time"},
+        {"what": "particles", "value": end, "unit": "", "how": there},
         {"what": "gas cells", "value": cells, "unit": "", "how": ""},
         {"what": "windows", "value": windows, "unit": "", "how": "the run's clock, driven by the scales above"},
         {"what": "sub-steps", "value": steps, "unit": "", "how": "the same"},

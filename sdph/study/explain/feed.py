@@ -130,7 +130,7 @@ def incoming(case) -> tuple[int, float]:
     most, mean, end = 0.0, 0.0, case.run.end_time
     for one in apart(case)[: len(case.nozzles)]:
         (nozzle,), s = one.nozzles.values(), scales_of(one)
-        pace = layer(one, nozzle) * nozzle.speed / one.resolution.spacing  # particles in a second
+        pace = paced(one, nozzle)
         stay = staying(one, s)
         first, last = nozzle.start, nozzle.start + lasting(one, nozzle)
         leaves = min(last, max(first, end - stay))  # who comes later is still there at the end
@@ -138,6 +138,17 @@ def incoming(case) -> tuple[int, float]:
         there = (leaves - first) * stay if leaves > first else 0.0
         mean += pace * (there + 0.5 * ((end - leaves) ** 2 - (end - last) ** 2)) / end
     return math.ceil(most), mean
+
+
+def paced(case, nozzle) -> float:
+    """Particles that a nozzle brings in a second [1/s]."""
+    return layer(case, nozzle) * nozzle.speed / case.resolution.spacing
+
+
+def brought_in(case) -> int:
+    """Particles that nozzles bring in all of the run."""
+    own = ((one, nozzle) for one in apart(case)[: len(case.nozzles)] for nozzle in one.nozzles.values())
+    return math.ceil(sum(paced(one, nozzle) * lasting(one, nozzle) for one, nozzle in own))
 
 
 def staying(case, s) -> float:

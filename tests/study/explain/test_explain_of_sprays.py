@@ -183,3 +183,13 @@ def test_windows_of_a_feed_that_a_stream_carries_off_are_foretold(tmp_path):
     assert rows["windows"] == pytest.approx(1448, rel=0.3)
     fed = feed.of(case, judge.scales_of(case))
     assert fed.stake(10.0) == fed.stake(20.0) < 0.2  # no more than is there at once
+
+
+def test_how_many_there_are_if_none_leaves_is_told():
+    """A swirl keeps what a straight way would take out: every layer of the nozzle is there in the end."""
+    case = case_of("spray_cone", "grains.diameter_std_mm=0", "run.end_time_s=30.0")
+    (row,) = [row for row in estimate.expected(case, judge.scales_of(case)) if row["what"] == "particles"]
+    every, most = feed.brought_in(case), feed.incoming(case)[0]
+    assert every > 5 * most and f"{every} at the end if none has left" in row["how"]
+    short = case_of("spray_cone", "grains.diameter_std_mm=0", "run.end_time_s=0.01")
+    assert feed.brought_in(short) == feed.incoming(short)[0]
