@@ -17,6 +17,13 @@ def exchange_coefficient(temperature, other):
 
 
 @law
+def extinction(alpha_p, diameter):
+    """K [1/m] = 3 alpha_p/(2 d), part of the radiation that grains stop on a metre of its way: opaque spheres, large
+    beside its wavelength, by their shadows. d: Sauter mean [m]. Modest 2013, Radiative Heat Transfer, ch. 12."""
+    return 1.5 * alpha_p / diameter
+
+
+@law
 def _half_difference(u):
     """(u - arctan tanh u)/2 for u >= 0; of small z = tanh u the series z^3/3 + z^7/7 + ..., to round-off."""
     z = math.tanh(u)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from sdph.engine.kept import Named
+from sdph.running import fast_gas
 
-RESIDUALS = ("gas_splitting_rel",)  # told beside limiters, of what a step leaves; nothing is held
+# told beside limiters, of what a step leaves and how fast gas is; nothing is held
+RESIDUALS = ("gas_splitting_rel", fast_gas.MACH, fast_gas.SPEED)
 LARGEST = "largest_"  # how keys of the summary begin
 
 

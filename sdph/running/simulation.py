@@ -17,7 +17,7 @@ from sdph.exchange import vapour
 from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
 from sdph.methods.grains.grains import Grains
-from sdph.running import compiling, forces, history, openings, outlet, output, through_gas
+from sdph.running import compiling, fast_gas, forces, haze, history, openings, outlet, output, through_gas
 from sdph.running.beside import Beside
 from sdph.running.limiters import Limiters
 from sdph.running.work import Pushes
@@ -117,7 +117,8 @@ class Simulation:
 
     def _hear(self, of_exchange: dict[str, float]) -> None:
         """Hear what limiters of the grains, of the exchange and of other methods hold."""
-        self.limiters.hear(self.grains.held() | of_exchange | self.beside.named(lambda method: method.held()))
+        of_gas = of_exchange | fast_gas.columns(self.case, self.gas_state.fields)
+        self.limiters.hear(self.grains.held() | of_gas | self.beside.named(lambda method: method.held()))
 
     def admit(self, kept: dict) -> None:
         """Unfit where time is not that of the ledger."""
@@ -265,7 +266,8 @@ class Simulation:
 
     def warnings(self) -> list[str]:
         """Notes for the user on how the run went."""
-        return self.grains.warnings() + vapour.refusals(self.ledger) + self.beside.warnings()
+        of_gas = vapour.refusals(self.ledger) + fast_gas.warnings(self.case, self.limiters.largest)
+        return self.grains.warnings() + of_gas + haze.warnings(self) + self.beside.warnings()
 
     def cell_fields(self) -> dict[str, np.ndarray]:
         """Fields of the gas, and alpha_p by cell."""

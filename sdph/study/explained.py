@@ -6,7 +6,7 @@ from pathlib import Path
 
 from sdph.case import fluids, forces, usual
 from sdph.effects.solids import rigid_sides
-from sdph.study import against, gas_keys, inlets, rehearsal
+from sdph.study import against, closed_vessels, gas_keys, inlets, rehearsal
 from sdph.study.explain import materials, tables, vessel
 
 
@@ -34,4 +34,5 @@ def warned(case, template: Path, *, allow_code: bool = False, whole: bool = Fals
 def _of_case(case, mesh) -> list[str]:
     """Warnings of a case with all its matters."""
     of_gas = [*gas_keys.warnings(case), *gas_keys.unseen(case, mesh), *inlets.warnings(case, mesh)]
+    of_gas += closed_vessels.warnings(case, mesh)
     return [*of_gas, *usual.warnings(case), *rigid_sides.warnings(case)]

@@ -47,8 +47,10 @@ def priced(case, template: Path):
         return prices.by_openfoam(math.prod(cells(case)))
     mesh = poly_mesh.read(template)
     grains = case.only("grains")
-    crossed = crossing.among_grains(grains, mesh, _held(grains, cell_sizes.middles(mesh)))
-    return prices.by_openfoam(len(mesh.volumes))._replace(edges=_edges(grains, mesh), crossed=crossed)
+    through = crossing.flow(grains, mesh)
+    crossed = crossing.among_grains(grains, mesh, _held(grains, cell_sizes.middles(mesh)), through)
+    own = {"edges": _edges(grains, mesh), "crossed": crossed, "fastest": crossing.fastest(mesh, through)}
+    return prices.by_openfoam(len(mesh.volumes))._replace(**own)
 
 
 def _edges(case, mesh) -> tuple[float, float]:

@@ -44,6 +44,22 @@ def test_gas_of_a_pipe_crosses_each_cell_in_its_width_over_its_speed():
     assert found == pytest.approx(SPEED / np.array(widths), rel=5e-3)
 
 
+def test_the_fastest_gas_of_a_pipe_is_that_which_comes_in():
+    case, mesh = case_of(left=blown(), right=OPEN), pipe([0.01, 0.02, 0.005, 0.04])
+    assert crossing.fastest(mesh, crossing.flow(case, mesh)) == pytest.approx(SPEED, rel=5e-3)
+    assert crossing.fastest(mesh, np.zeros(len(mesh.owner))) == 0.0
+    one = pipe([0.01])
+    assert crossing.fastest(one, crossing.flow(case, one)) == pytest.approx(SPEED, rel=5e-3)
+
+
+def test_a_cell_has_the_mean_of_what_comes_in_and_goes_out():
+    """Through 0.01 m x 0.3 m; 0.1 and 0.3, then 0.3 and 0.2 m3/s."""
+    mesh = pipe([0.01, 0.02, 0.005, 0.04])
+    through = np.zeros(len(mesh.owner))
+    through[:3] = 0.1, 0.3, 0.2
+    assert crossing.fastest(mesh, through) == pytest.approx(0.25 / 0.003)
+
+
 @pytest.mark.parametrize("boundaries", [{"right": OPEN}, {"left": blown()}, {"left": blown(), "beside": OPEN}])
 def test_nothing_crosses_where_gas_comes_in_or_goes_out_nowhere(boundaries):
     assert not crossing.rates(case_of(**boundaries), pipe([0.01, 0.02])).any()
@@ -75,6 +91,9 @@ def test_gas_of_a_taper_is_slower_where_it_is_wider(tmp_path):
     found = crossing.rates(case_of(**names), mesh).reshape(50, 10)
     assert found[0].mean() == pytest.approx(SPEED / 0.01, rel=0.02)
     assert found[-1].mean() == pytest.approx(SPEED / 3.0 / 0.01, rel=0.05)
+    turned = {"outlet": blown() | {"velocity_m_s": [0.0, -SPEED]}, "inlet": OPEN}
+    case = case_of(**turned)
+    assert crossing.fastest(mesh, crossing.flow(case, mesh)) == pytest.approx(3.0 * SPEED, rel=0.05)
 
 
 @pytest.mark.openfoam

@@ -26,6 +26,11 @@ from sdph.schema import quantity, record
 # 2.5e-5 of the cooling (tests/effects/gas/test_radiation_effect.py)
 SPLIT = 0.1
 BESIDE = ("heat", "conduction", "evaporation", "reaction")  # what changes the temperature of grains too
+THICK = 1.0  # optical depth through which a third of the radiation, exp(-1), gets; our choice
+HIDDEN = (
+    "radiation takes each grain to see the surroundings past all others (optically thin), and "
+    f"from {THICK:g} on most are hidden: what is radiated to the surroundings is too much"
+)
 TIMES, SOURCE = "run / radiative response time", "Incropera & DeWitt, section 5.3"
 
 
@@ -69,6 +74,13 @@ def surface(sizes_p, s, i):
         total += mass * 6.0 / d
         whole += mass
     return total / whole
+
+
+@parallel
+def surfaces(sizes_p, s, out):
+    """Surface of the grains of each particle over their volume [1/m], into out (N,); 0 of others."""
+    for i in prange(len(s.x)):
+        out[i] = surface(sizes_p, s, i) if s.kind[i] == GRAIN else 0.0
 
 
 @inlined

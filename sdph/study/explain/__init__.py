@@ -8,6 +8,8 @@ lockstep       steps of a liquid with bodies in it
 droplets       numbers of droplets
 liquids        those of a liquid
 solids         those of solids
+haze           whether grains hide each other as they radiate
+mach           how fast gas is by its sound
 vessel         volume of a tank, and of what fills it
 stages         effects of a gel droplet that grows, necks and has torn
 tables         all of it as tables

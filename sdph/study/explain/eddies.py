@@ -1,15 +1,11 @@
-"""Gas that a case takes as laminar though it would be turbulent, where grains do not rule it; gas as fast as sound."""
+"""Gas that a case takes as laminar though it would be turbulent, where grains do not rule it."""
 
 from __future__ import annotations
 
-import math
-
 from sdph.case.turbulent import SECTION, fastest_inlet
-from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
 
 TURBULENT = 3000.0  # Reynolds number of a channel by its width and mean speed, Pope 2000, section 7.1
 SOONER = 0.01  # of that time; our choice: beds have 1e-5 to 2e-3, mouths of sprays and risers 0.03 to 1
-FAST = 0.3  # Mach number from which on gas is compressed by its own motion: density is 5 % off, Anderson 2003
 
 
 def reynolds(case) -> float:
@@ -32,16 +28,4 @@ def warnings(s) -> list[str]:
     return [
         f"the gas flows at Re = {found:.3g} by the narrowest side of the domain, turbulent from {TURBULENT:g} on, and "
         f"is taken as laminar: friction on walls and mixing are too small; give [{SECTION}] (OpenFOAM's gas)"
-    ]
-
-
-def too_fast(case) -> list[str]:
-    """Note on gas that enters so fast that a flow at low Mach numbers is not what it does."""
-    gas = case.gas
-    mach = fastest_inlet(case) / math.sqrt(ADIABATIC * GAS_CONSTANT / gas.molar_mass * gas.temperature)
-    if mach <= FAST:
-        return []
-    return [
-        f"gas enters at Mach {mach:.3g}: the equations are those of low Mach numbers, without sound and shocks, and "
-        f"from {FAST:g} on its density and pressure are wrong; let it in slower, through a wider inlet"
     ]

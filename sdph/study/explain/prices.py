@@ -16,8 +16,8 @@ IN_SPACE = 2.5
 
 class Priced(NamedTuple):
     """A gas solver, its cells, its time for each window and for each cell of it [us], and, of a mesh that the case
-    brings, shortest and longest edge [m] of the cells where grains stand, and how often in a second [1/s] gas crosses
-    one there, at most."""
+    brings, shortest and longest edge [m] of the cells where grains stand, how often in a second [1/s] gas crosses one
+    there, at most, and the largest speed [m/s] of gas that flows through it alone."""
 
     name: str
     cells: int
@@ -25,6 +25,7 @@ class Priced(NamedTuple):
     cell: float
     edges: tuple[float, float] | None = None
     crossed: float = 0.0
+    fastest: float = 0.0
 
 
 def by_openfoam(cells: int) -> Priced:

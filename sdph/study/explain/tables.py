@@ -7,10 +7,10 @@ import math
 from sdph import effects
 from sdph.case import judge
 from sdph.effects.grains import conduction
-from sdph.laws.constants import ADIABATIC, GAS_CONSTANT
+from sdph.laws.sound import FAST
 from sdph.methods.grains import start, ways
 from sdph.methods.grains.scales import THIN
-from sdph.study.explain import droplets, eddies, estimate, liquids, lockstep, materials, mps, solids, stages
+from sdph.study.explain import droplets, eddies, estimate, haze, liquids, lockstep, mach, materials, mps, solids, stages
 
 OF = {
     "liquid": liquids,
@@ -65,7 +65,7 @@ def _of_grains(case, scales, priced) -> dict[str, list]:
     limits = estimate.limits(case, scales, priced.crossed if priced else 0.0)
     expected = estimate.expected(case, scales, priced)
     return {
-        "numbers": numbers(scales, case.warm, "heat" in case.effects),
+        "numbers": numbers(scales, case.warm, "heat" in case.effects, priced.fastest if priced else 0.0),
         "materials": materials.rows(case),
         "ratios": estimate.ratios(case, priced and priced.edges),
         "limits": limits,
@@ -87,19 +87,18 @@ def warnings(case, scales=None, priced=None) -> list[str]:
 
 def _of_gas(case, scales, priced) -> list[str]:
     """Notes on grains in a gas."""
-    edges = priced and priced.edges
-    thin = droplets.flying(scales, case.effects)
-    own = *eddies.warnings(scales), *eddies.too_fast(case), *droplets.boiling(case), *thin
-    return [*estimate.warnings(case, edges), *own]
+    edges, fastest = (priced.edges, priced.fastest) if priced else (None, 0.0)
+    of_droplets = *droplets.boiling(case), *droplets.flying(scales, case.effects)
+    own = *eddies.warnings(scales), *mach.warnings(case, fastest), *haze.warnings(case, scales)
+    return [*estimate.warnings(case, edges), *own, *of_droplets]
 
 
-def numbers(s, warm: bool = True, heated: bool = True) -> list[tuple]:
+def numbers(s, warm: bool = True, heated: bool = True, fastest: float = 0.0) -> list[tuple]:
     """(name, value, threshold, what lies above the threshold, source) of the numbers that decide; those of heat only
-    where the case is `warm`, that of the gas where it is `heated`."""
+    where the case is `warm`, that of the gas where it is `heated`; `fastest` as of `mach.number`."""
     grains, gas, end = s.grains, s.gas, s.end
     biot = s.nusselt * gas.conductivity / (6.0 * grains.conductivity) if grains.conductivity else math.inf
     archimedes = gas.density * (grains.density - gas.density) * s.gravity * grains.diameter**3 / gas.viscosity**2
-    sound = math.sqrt(ADIABATIC * GAS_CONSTANT / gas.molar_mass * gas.temperature)
     diffusivity = conduction.conductivity(s.case, s.alpha_p) / (grains.density * grains.heat_capacity)
     peclet = s.speed * s.length / diffusivity if diffusivity else math.inf
     fed, slowest = (speed / s.minimum_fluidisation if speed else 0.0 for speed in (s.jet, ways.slowest(s.case)))
@@ -116,7 +115,7 @@ def numbers(s, warm: bool = True, heated: bool = True) -> list[tuple]:
         ),
         ("U/U_mf of the slowest inlet", slowest, 1.0, "gas lifts packed grains beside a jet too", "Ergun 1952"),
         ("Biot", biot, 0.1, "grains are not of one temperature inside", "Incropera, ch. 5.1"),
-        ("Mach of the gas", s.slip / sound, eddies.FAST, "gas is compressed by its own motion", "Anderson 2003"),
+        ("Mach of the gas", mach.number(s, fastest), FAST, "gas is compressed by its own motion", "Anderson 2003"),
         ("1/Froude, g t/U", s.gravity * end / s.slip if s.slip else 0.0, 0.01, "gravity matters", "by its definition"),
         (
             "Knudsen of the grains, path/h",
