@@ -47,8 +47,8 @@ def _of_hot_walls(found) -> list[str]:
 
 
 def _limit(schemes: Path) -> None:
-    """Have the gradients that vanLeer looks at limited: on cells that are no boxes gas that passes a cold wall else gets
-    hotter than any around it (3363 K of 3000 K, beside a wall of 2200 K)."""
+    """Have the gradients that vanLeer looks at limited: on cells that are no boxes gas that passes a cold wall else
+    gets hotter than any around it (3363 K of 3000 K, beside a wall of 2200 K)."""
     text = schemes.read_text(encoding="utf-8")
     output.write_text(schemes, re.sub(r"(grad\([TY]\) +)leastSquares", r"\1cellLimited leastSquares 1", text))
 

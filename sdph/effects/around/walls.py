@@ -74,8 +74,8 @@ def kernel(case) -> WallsP:
     gravity = float(np.linalg.norm(case.domain.gravity)) or 1.0
     penalty = own.penalty * math.sqrt(gravity / case.smoothing_length)
     return WallsP(
-        *specularity(own, case.grains.restitution), case.grains.restitution, own.restitution, CONTACT * spacing, spacing,
-        penalty, MODELS.index(own.model), case.grains.packing_limit, case.grains.density,
+        *specularity(own, case.grains.restitution), case.grains.restitution, own.restitution, CONTACT * spacing,
+        spacing, penalty, MODELS.index(own.model), case.grains.packing_limit, case.grains.density,
         *coulomb(case, own),
     )  # fmt: skip
 

@@ -37,8 +37,8 @@ def checked(case) -> list[str]:
 def _of_several(name: str, key: str, count: int) -> str:
     """A line on a region that fills an open surface of several parts."""
     return (
-        f'particles.{name}.shape = "walls" fills what lies in front of {key}, which is open and has {count} parts: each '
-        "place by the part that is nearest; look at the start, or give a box, or another region"
+        f'particles.{name}.shape = "walls" fills what lies in front of {key}, which is open and has {count} parts: '
+        "each place by the part that is nearest; look at the start, or give a box, or another region"
     )
 
 
