@@ -230,9 +230,11 @@ def _effects(table: dict) -> tuple[str, ...]:
     if not isinstance(on, list) or not all(isinstance(name, str) for name in on):
         raise CaseError(f"effects = {on!r}; it must be a list of names out of {', '.join(sorted(effects.REGISTRY))}")
     _refuse_names(on)
-    for name in effects.REGISTRY.keys() & table.keys() - set(on):
+    if off := sorted(effects.REGISTRY.keys() & table.keys() - set(on)):
+        given = ", ".join(f"[{name}]" for name in off)
         raise CaseError(
-            f"[{name}] is given, but {name} is not among effects = {list(on)}; add it there or remove the section"
+            f"{given} given, but {', '.join(off)} not among effects = {list(on)}; add there what is meant to act, or "
+            "remove the section"
         )
     return tuple(on)
 

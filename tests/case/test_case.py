@@ -144,6 +144,7 @@ def test_unknown_key_names_the_nearest(override, named):
         (("effects=['heat','heat']",), ("effects", "once")),
         (("effects='heat'",), ("effects", "list")),
         (("effects=['conduction']",), ("[heat]", "not among effects", "remove the section")),
+        (("effects=[]", "drag.law='ergun'"), ("[drag], [heat]", "not among effects", "remove the section")),
         (("resolution.spacing_mm=150",), ("resolution.spacing_mm = 150", "larger than particles.disc")),
         (("particles.disc.centre_m=[0.45,0.25]",), ("particles.disc", "out of the domain")),
         (("particles.disc.shape='box'",), ("particles.disc.lower_m", "missing")),
