@@ -240,7 +240,7 @@ def view_run(options) -> int:
         web.serve(options.run, options.time, look)
     elif options.movie:
         _refuse(options, ("png", "time"), "--movie is of all instants, and writes no picture")
-        view.movie(options.run, options.movie, look=look)
+        view.movie(options.run, options.movie, look=look, tell=_say)
     else:
         view.show(options.run, options.png, options.time, look=look)
     return FINE

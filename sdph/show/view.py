@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from sdph.schema import CaseError
@@ -11,6 +13,11 @@ from sdph.show.shot import Shot
 
 KINDS = (".png", ".svg", ".pdf")  # of pictures
 MOVIES = {".gif": {"duration": 100, "loop": 0}, ".mp4": {"fps": 10, "macro_block_size": 2}}  # ten pictures a second
+TELL = 10.0  # s between two lines on how far a movie is
+
+
+def _silent(text: str) -> None:
+    """Tell nobody."""
 
 
 def show(
@@ -55,16 +62,37 @@ def _scales(shots: list[Shot], look: Look) -> dict[str, style.Scale]:
     return found
 
 
-def movie(folder: Path, target: Path, field: str | None = None, look: Look | None = None) -> None:
-    """All times of a run as a .gif or .mp4, in one range of colours."""
-    import imageio.v3 as imageio
+def movie(
+    folder: Path,
+    target: Path,
+    field: str | None = None,
+    look: Look | None = None,
+    tell: Callable[[str], None] = _silent,
+) -> None:
+    """All times of a run as a .gif or .mp4, in one range of colours; `tell` hears now and then how far it is."""
+    import imageio.v2 as imageio
 
     if target.suffix not in MOVIES:
         raise CaseError(f"--movie {target}: its name must end with {' or '.join(MOVIES)}")
     shots, look = shot.all_of_folder(folder), look or Look(field)
-    scales = _scales(shots, look)
-    pictures = [sheet(taken, look, scales, shots[-1].time, fine=1).image() for taken in shots]
+    scales, draft = _scales(shots, look), target.with_name(f".{target.stem}.part{target.suffix}")
     try:
-        imageio.imwrite(target, pictures, **MOVIES[target.suffix])
+        with imageio.get_writer(draft, mode="I", **MOVIES[target.suffix]) as film:
+            for taken in _told(shots, tell):
+                film.append_data(sheet(taken, look, scales, shots[-1].time, fine=1).image())
+        draft.replace(target)
     except OSError as error:
         raise CaseError(f"{target} cannot be written: {error}") from None
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def _told(shots: list[Shot], tell: Callable[[str], None]) -> Iterator[Shot]:
+    """The shots one after the other; `tell` hears every TELL seconds how many are drawn and how long the rest takes."""
+    begun = last = time.perf_counter()
+    for number, taken in enumerate(shots):
+        now = time.perf_counter()
+        if number and now - last > TELL:
+            last = now
+            tell(f"picture {number} of {len(shots)}, {(now - begun) * (len(shots) - number) / number:.0f} s left")
+        yield taken

@@ -31,6 +31,26 @@ def test_a_film_goes_on_where_nothing_is_left(field, tmp_path):
         view.show(tmp_path, tmp_path / "a.png", field="pressure")
 
 
+def test_a_film_tells_how_far_it_is_and_is_there_when_it_is_whole(tmp_path, monkeypatch):
+    (tmp_path / "fields").mkdir()
+    fields, heard = Fields(tmp_path), []
+    for time in range(3):
+        own = cloud(lattice(4), ident=np.arange(16), velocity=np.full((16, 3), 1.0 + time))
+        fields.write(float(time), {"particles": own})
+    monkeypatch.setattr(view, "TELL", 0.0)
+    view.movie(tmp_path, tmp_path / "a.gif", tell=heard.append)
+    assert [re.sub(r"\d+ s left", "", line) for line in heard] == [f"picture {n} of 3, " for n in (1, 2)]
+
+    def fails(*given, **more):
+        assert not (tmp_path / "b.gif").exists()
+        raise OSError("the disk is full")
+
+    monkeypatch.setattr(view, "sheet", fails)
+    with pytest.raises(CaseError, match="b.gif cannot be written: the disk is full"):
+        view.movie(tmp_path, tmp_path / "b.gif")
+    assert sorted(path.name for path in tmp_path.glob("*.gif")) == ["a.gif"] and not list(tmp_path.glob(".*"))
+
+
 def test_the_window_of_the_viewer_holds_all_instants(tmp_path):
     """Also those at which all was elsewhere than in the end: it goes ten widths to the right."""
     (tmp_path / "fields").mkdir()
