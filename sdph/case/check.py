@@ -172,7 +172,7 @@ def _check_components(case: Case) -> None:
             vectors |= {
                 f"{group}.{name}.{key}": getattr(place, at)
                 for key, (at, kind) in fields(cls).items()
-                if kind.components is None
+                if kind.components is None and at != "corners"  # which are vectors themselves
             }
     for name, point in case.probes.items():
         vectors[f"probes.{name}.at_m"] = point.at

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from sdph.engine import regions
+from sdph.engine.walls.outline import outline
 from sdph.schema import CaseError
 
 NEEDS = {
     "box": ("lower", "upper"), "disc": ("centre", "radius"), "sphere": ("centre", "radius"),
     "cylinder": ("centre", "radius", "length"), "cone": ("centre", "radius", "end_radius", "length"),
-    "mesh": ("mesh",), "walls": (),
+    "outline": ("corners",), "mesh": ("mesh",), "walls": (),
 }  # fmt: skip
 KEYS = {"mesh": "mesh"}  # of a case file, where they end on no unit
 SPACE = ("cylinder", "cone", "mesh")  # shapes of three dimensions
@@ -22,8 +23,13 @@ def check(case, where: str, region) -> None:
             raise CaseError(f"{where}.{KEYS.get(name, f'{name}_m')} is missing; a {region.shape} needs {needs}")
     if region.shape in SPACE and case.dimensions != 3:
         raise CaseError(
-            f"{where}.shape = {region.shape!r} is of three dimensions; in two give a box, a disc, or the walls"
+            f"{where}.shape = {region.shape!r} is of three dimensions; in two give a box, a disc, an outline, or the "
+            "walls"
         )
+    if region.shape == "outline" and case.dimensions != 2:
+        raise CaseError(f'{where}.shape = "outline" is of two dimensions; in three give a mesh, or another shape')
+    if region.shape == "outline":
+        outline(f"{where}.corners_m", region.corners)
     if region.shape == "walls" and "walls" not in case.effects:
         raise CaseError(f'{where}.shape = "walls" is what the walls enclose; add walls to effects')
     if region.shape == "cone" and not max(region.radius, region.end_radius) > 0.0:

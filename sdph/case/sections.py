@@ -89,16 +89,17 @@ class Resolution:
 @record
 class Region:
     """Region that particles fill at the start: a disc or sphere (centre, radius), a box (lower, upper), a cylinder or a
-    cone along an axis about its centre, the inside of a closed mesh, or of the walls. What is not in front of
-    `walls.mesh` is left out."""
+    cone along an axis about its centre, a polygon of the plane (outline), the inside of a closed mesh, or of the walls.
+    What is not in front of `walls.mesh` is left out."""
 
-    shape: str = choice("disc", "sphere", "box", "cylinder", "cone", "mesh", "walls")
+    shape: str = choice("disc", "sphere", "box", "cylinder", "cone", "outline", "mesh", "walls")
     volume_fraction: float = quantity("", above=0.0, most=1.0)
     temperature: float = quantity("K", above=0.0)
     centre: tuple | None = vector("m", None)
     radius: float | None = quantity("m", None, above=0.0)
     lower: tuple | None = vector("m", None)
     upper: tuple | None = vector("m", None)
+    corners: tuple | None = vector("m", None)  # of an outline, one after the other
     axis: str = choice("x", "y", "z", default="z")  # of a cylinder or cone
     length: float | None = quantity("m", None, above=0.0)  # the same; half of it on each side of the centre
     end_radius: float | None = quantity("m", None, least=0.0)  # of a cone, at its upper end; radius is at the lower

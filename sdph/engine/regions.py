@@ -1,8 +1,8 @@
 """Regions that grains fill at the start: lattice points in a shape, in front of the walls, up to a level.
 
-Shapes: box, disc, sphere (`lattice.lattice`); cylinder and cone along an axis, the inside of a closed surface mesh,
-and what the mesh of the walls encloses, on a square or cubic lattice. A level is a height over the region's lowest
-point, or the mass that comes to lie below it.
+Shapes: box, disc, sphere (`lattice.lattice`); cylinder and cone along an axis, a polygon of the plane, the inside of a
+closed surface mesh, and what the mesh of the walls encloses, on a square or cubic lattice. A level is a height over the
+region's lowest point, or the mass that comes to lie below it.
 """
 
 from __future__ import annotations
@@ -14,11 +14,13 @@ import numpy as np
 from sdph.engine.lattice import grid, lattice
 from sdph.engine.walls import facets, shapes
 from sdph.engine.walls.dummies import CONTACT
+from sdph.engine.walls.outline import outline
 from sdph.engine.world import ALONE
 from sdph.schema import CaseError
 
 ALONG_AXIS = ("cylinder", "cone")
 ROUND = ("disc", "sphere")
+BY_SURFACE = ("mesh", "outline")
 AXES = ("x", "y", "z")
 MESH = "mesh of particles"
 HALF = 0.5  # of a spacing between a level and the row below
@@ -31,6 +33,8 @@ def bounds(region, walls, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
     are the facets of their mesh."""
     if region.shape == "box":
         return np.array(region.lower), np.array(region.upper)
+    if region.shape == "outline":
+        return np.min(region.corners, axis=0), np.max(region.corners, axis=0)
     if region.shape == "mesh":
         low, high = np.reshape(_surface(region).triangles.bounds, (3, 2)).T
         return low, high
@@ -44,12 +48,14 @@ def bounds(region, walls, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def closed_form(region, dimensions: int) -> float:
-    """Volume [m^d] of a box, a disc, a sphere, a ring, a cylinder or a cone; nan of other shapes."""
+    """Volume [m^d] of a box, a disc, a sphere, a ring, a cylinder, a cone or a polygon; nan of other shapes."""
     if region.shape == "box":
         return math.prod(b - a for a, b in zip(region.lower, region.upper))
     if region.shape in ALONG_AXIS:
         a, b = _radii(region)
         return math.pi * region.length * (a * a + a * b + b * b) / 3.0
+    if region.shape == "outline":
+        return _surface(region).volume
     if region.shape == "ring":
         return math.pi * (region.radius**2 - region.inner_radius**2)
     if region.shape in ROUND:
@@ -70,7 +76,7 @@ def volume(region, spacing: float, dimensions: int, count: int) -> float:
     lattice."""
     if region.shape == "box" or region.shape in ALONG_AXIS:
         return closed_form(region, dimensions) / count
-    if region.shape == "mesh":
+    if region.shape in BY_SURFACE:
         return _surface(region).volume / count
     return spacing**dimensions
 
@@ -87,7 +93,7 @@ def counted(region, low, high, walls, layers: float, spacing: float) -> float:
         places = places[_in_cone(region, places, bounds(region, walls, d)[0])]
     elif region.shape in ROUND:
         places = places[((places - np.array(region.centre)) ** 2).sum(axis=1) < region.radius**2]
-    elif region.shape == "mesh":
+    elif region.shape in BY_SURFACE:
         places = places[_surface(region).distance(places) < 0.0]
     if walls is None or not len(places):
         return each * len(places)
@@ -97,6 +103,8 @@ def counted(region, low, high, walls, layers: float, spacing: float) -> float:
 
 def _surface(region):
     """The closed surface that a region is the inside of."""
+    if region.shape == "outline":
+        return outline("corners_m of particles", region.corners)
     return shapes.Mesh(region.mesh, MESH, region.mesh_scale)
 
 
@@ -116,7 +124,7 @@ def points(region, spacing: float, dimensions: int, walls, world=ALONE) -> np.nd
         return places[_in_cone(region, places, low)]
     ticks = [a + (np.arange(max(1, round((b - a) / spacing))) + 0.5) * spacing for a, b in zip(low, high)]
     places = grid(ticks, world)
-    if region.shape == "mesh":
+    if region.shape in BY_SURFACE:
         return places[_surface(region).distance(places) < 0.0]
     return places[facets.Surface(walls).distance(places) > 0.0]
 

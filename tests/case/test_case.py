@@ -148,6 +148,12 @@ def test_unknown_key_names_the_nearest(override, named):
         (("resolution.spacing_mm=150",), ("resolution.spacing_mm = 150", "larger than particles.disc")),
         (("particles.disc.centre_m=[0.45,0.25]",), ("particles.disc", "out of the domain")),
         (("particles.disc.shape='box'",), ("particles.disc.lower_m", "missing")),
+        (("particles.disc.shape='outline'",), ("particles.disc.corners_m", "missing")),
+        (
+            ("particles.disc.shape='outline'", "particles.disc.corners_m=[[0,0],[0.1,0.1],[0.1,0],[0,0.1]]"),
+            ("particles.disc.corners_m", "meets that from"),
+        ),
+        (("particles.disc.shape='outline'", "particles.disc.corners_m=[0,1,2]"), ("[[x, y], ...]", "3 at least")),
         ((*BOX, "particles.disc.upper_m=[0.05,0.3]"), ("particles.disc", "upper_m", "above lower_m")),
         ((*BOX, "particles.disc.lower_m=[[0.1,0.1]]"), ("particles.disc.lower_m", "components")),
         (("particles.disc=3",), ("[particles]", "named sections")),

@@ -7,6 +7,8 @@ import meshio
 import numpy as np
 import pytest
 import pyvista
+from hypothesis import given
+from hypothesis import strategies as st
 
 from sdph.case.sections import Region
 from sdph.engine import regions
@@ -56,6 +58,27 @@ def test_the_inside_of_a_mesh_is_that_of_its_ball(tmp_path):
     points = regions.points(region("mesh", mesh=ball), SPACING, 3, None)
     assert len(points) * SPACING**3 == pytest.approx(4.0 / 3.0 * math.pi * 1e-3, rel=0.02)
     assert (((points - 0.2) ** 2).sum(axis=1) < 0.01).all()
+
+
+@given(
+    low=st.floats(0.02, 0.1), high=st.floats(0.02, 0.3), tall=st.floats(0.05, 0.3), lean=st.floats(-0.1, 0.1),
+    turned=st.booleans(),
+)  # fmt: skip
+def test_an_outline_is_filled_between_its_sides(low, high, tall, lean, turned):
+    """A trapezoid, whichever way its corners go round: its area exactly, up to any level too, and nothing beside it."""
+    corners = ((0.0, 0.0), (low, 0.0), (lean + high, tall), (lean, tall))
+    own = region("outline", corners=corners[::-1] if turned else corners)
+    area = 0.5 * (low + high) * tall
+    assert regions.closed_form(own, 2) == pytest.approx(area) == 7.0 * regions.volume(own, SPACING, 2, 7)
+    x, y = regions.points(own, 0.002, 2, None).T
+    share, same = y / tall, 1e-12  # of a side that points lie on
+    assert (y > 0.0).all() and (y < tall).all()
+    assert (x > share * lean - same).all() and (x < low + share * (lean + high - low) + same).all()
+    assert len(x) * 0.002**2 == pytest.approx(area, rel=0.1)
+    lower, upper = regions.bounds(own, None, 2)
+    half = np.array([upper[0], 0.5 * tall])
+    least = regions.counted(own, lower, half, None, 3.0, SPACING)
+    assert least == pytest.approx(0.5 * tall * (0.75 * low + 0.25 * high), rel=0.02)
 
 
 @pytest.mark.parametrize("capping", [True, False])

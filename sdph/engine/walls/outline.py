@@ -132,7 +132,7 @@ def outline(key: str, corners, open_at=()) -> Outline:
         if (a == b).all() or (c == d).all() or (j - i not in (1, count - 1) and _meet(a, b, c, d)):
             raise CaseError(
                 f"{key}: the side from {a.tolist()} to {b.tolist()} has no length or meets that from {c.tolist()} to "
-                f"{d.tolist()}; give corners one after the other, around the liquid, each once"
+                f"{d.tolist()}; give corners one after the other, around what it holds, each once"
             )
     whole = Outline(places, np.zeros(count, bool))
     return Outline(places, np.any([whole.open, *(whole.lies_at(*at) for at in open_at)], axis=0))
