@@ -10,6 +10,7 @@ liquids        those of a liquid
 solids         those of solids
 haze           whether grains hide each other as they radiate
 mach           how fast gas is by its sound
+pressed        whether grains begin denser than their weight holds them
 vessel         volume of a tank, and of what fills it
 stages         effects of a gel droplet that grows, necks and has torn
 tables         all of it as tables

@@ -10,7 +10,20 @@ from sdph.effects.grains import conduction
 from sdph.laws.sound import FAST
 from sdph.methods.grains import start, ways
 from sdph.methods.grains.scales import THIN
-from sdph.study.explain import droplets, eddies, estimate, haze, liquids, lockstep, mach, materials, mps, solids, stages
+from sdph.study.explain import (
+    droplets,
+    eddies,
+    estimate,
+    haze,
+    liquids,
+    lockstep,
+    mach,
+    materials,
+    mps,
+    pressed,
+    solids,
+    stages,
+)
 
 OF = {
     "liquid": liquids,
@@ -90,7 +103,7 @@ def _of_gas(case, scales, priced) -> list[str]:
     edges, fastest = (priced.edges, priced.fastest) if priced else (None, 0.0)
     of_droplets = *droplets.boiling(case), *droplets.flying(scales, case.effects)
     own = *eddies.warnings(scales), *mach.warnings(case, fastest), *haze.warnings(case, scales)
-    return [*estimate.warnings(case, edges), *own, *of_droplets]
+    return [*estimate.warnings(case, edges), *own, *of_droplets, *pressed.warnings(case)]
 
 
 def numbers(s, warm: bool = True, heated: bool = True, fastest: float = 0.0) -> list[tuple]:
