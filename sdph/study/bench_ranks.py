@@ -12,6 +12,9 @@ import sys
 import tempfile
 from collections.abc import Callable
 
+from sdph import scenes
+from sdph.case import read as cases
+from sdph.running import ranks as processes
 from sdph.schema import CaseError
 from sdph.study.bench import Row
 
@@ -24,6 +27,8 @@ def rows(ranks: int, say: Callable[[str], None]) -> list[Row]:
     """Wall time of a step of one process over that of so many ranks, and over that of as many threads."""
     if ranks < 2:
         raise CaseError(f"--ranks {ranks}: to be compared with one process there must be at least 2")
+    for scene, _ in CASES.values():
+        processes.refuse(cases.load(scenes.HERE / scene / "case.toml"), ranks)
     found = []
     for kind, (scene, spacing) in CASES.items():
         say(f"{kind}, {scene} with {spacing:g} mm: one process, {ranks} ranks, {ranks} threads")
