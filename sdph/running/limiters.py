@@ -6,7 +6,7 @@ from sdph.engine.kept import Named
 from sdph.running import fast_gas
 
 # told beside limiters, of what a step leaves and how fast gas is; nothing is held
-RESIDUALS = ("gas_splitting_rel", fast_gas.MACH, fast_gas.SPEED)
+BESIDE = ("gas_splitting_rel", fast_gas.MACH, fast_gas.SPEED)
 LARGEST = "largest_"  # how keys of the summary begin
 
 
@@ -32,4 +32,4 @@ class Limiters:
 def acted(summary: dict) -> dict[str, float]:
     """The largest of the run of each limiter that acted in it, by column of history.csv."""
     told = {key.removeprefix(LARGEST): value for key, value in summary.items() if key.startswith(LARGEST)}
-    return {column: value for column, value in told.items() if value and column not in RESIDUALS}
+    return {column: value for column, value in told.items() if value and column not in BESIDE}

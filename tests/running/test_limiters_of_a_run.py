@@ -13,14 +13,14 @@ from sdph.engine.ledger import NOTHING
 from sdph.methods.liquids.totals import AMOUNTS
 from sdph.running import driver, output
 from sdph.running.alone import Alone
-from sdph.running.limiters import RESIDUALS, Limiters
+from sdph.running.limiters import BESIDE, Limiters
 from sdph.scenes import paths
 from sdph.study.explain.effect_costs import prepared
 
 PAGE = paths.PACKAGE.parent / "docs" / "limiters.md"
 PARTS = [f"Repairs of the numerics: {part}" for part in ("grains", "exchange of grains and gas", "gas")]
 # `prepared` has a gas that holds nothing; a model of turbulence tells of one more (test_turbulence.py)
-OF_GAS = {*EMBEDDED, *OPENFOAM, "gas_turbulence_bounded_rel"} - set(RESIDUALS)
+OF_GAS = {*EMBEDDED, *OPENFOAM, "gas_turbulence_bounded_rel"} - set(BESIDE)
 LIQUIDS = ("Repairs of the numerics: liquids",)
 # scenes that have all limiters between them, with what no scene has
 EVERY = {
@@ -66,7 +66,7 @@ def counted(letter, parts=PARTS):
 
 
 def test_the_page_names_all_columns_of_the_history():
-    told = [set(prepared(load(name, "embedded", *more)).limiters.now) - set(RESIDUALS) for name, more in EVERY.items()]
+    told = [set(prepared(load(name, "embedded", *more)).limiters.now) - set(BESIDE) for name, more in EVERY.items()]
     assert counted("H") == set.union(OF_GAS, *told)
 
 

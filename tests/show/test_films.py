@@ -41,9 +41,14 @@ def test_a_film_tells_how_far_it_is_and_is_there_when_it_is_whole(tmp_path, monk
     view.movie(tmp_path, tmp_path / "a.gif", tell=heard.append)
     assert [re.sub(r"\d+ s left", "", line) for line in heard] == [f"picture {n} of 3, " for n in (1, 2)]
 
+    drawn, sheet = [], view.sheet
+
     def fails(*given, **more):
-        assert not (tmp_path / "b.gif").exists()
-        raise OSError("the disk is full")
+        drawn.append(sheet(*given, **more))
+        if len(drawn) == 3:
+            assert not (tmp_path / "b.gif").exists()
+            raise OSError("the disk is full")
+        return drawn[-1]
 
     monkeypatch.setattr(view, "sheet", fails)
     with pytest.raises(CaseError, match="b.gif cannot be written: the disk is full"):

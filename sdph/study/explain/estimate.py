@@ -238,7 +238,7 @@ def expected(case, s, priced: prices.Priced | None = None) -> list[dict]:
     told = ", ".join(f"{name} {time:.2g} s" for name, time in parts.items() if time)
     there = f"{start} at the start" if end > start else "all the time"
     if (every := start + feed.brought_in(case)) > end:
-        there += f"; {every} at the end if none has left: these go through the domain once, and straight"
+        there += f"; {every} at the end if none has left, counted are those that go straight through the domain"
     how = f"one core, {priced.name}, warm; {told}; measured on {own.measured}"
     return [
         {"what": "particles", "value": end, "unit": "", "how": there},
