@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from coupling.embedded.grid import Grid, indices
-from sdph.case import inlets, profiles
+from sdph.case import inlet_profiles, inlets
 from sdph.case.gas_cells import nearest_edge
 from sdph.engine.geometry import SIDES
 from sdph.schema import CaseError
@@ -83,7 +83,7 @@ def _side(case, grid: Grid, axis: int, upper: int) -> dict[str, np.ndarray]:
     for number, boundary in enumerate(case.boundaries.values()):
         if boundary.profile != "uniform":
             mine = owner == number
-            each["velocity"][mine] *= profiles.over_mean(case, boundary, middle[mine, 1 - axis])[:, None]
+            each["velocity"][mine] *= inlet_profiles.over_mean(case, boundary, middle[mine, 1 - axis])[:, None]
     return each | {
         "owner": owner, "middle": middle,
         "face": cell + grid.strides[axis] * upper, "cell": cell, "ghost": cell + step,

@@ -19,7 +19,7 @@ from coupling.openfoam.block_mesh import block_mesh
 from coupling.openfoam.code import Findings, refuse_code
 from coupling.openfoam.start_fields import CYCLIC, EMPTY, start_fields
 from coupling.openfoam.turbulence import write_properties
-from sdph.case import profiles
+from sdph.case import inlet_profiles
 from sdph.case.gas_cells import cells
 from sdph.schema import CaseError
 
@@ -74,7 +74,7 @@ def write_case(
     write_macros(case, folder)
     write_properties(case, folder)
     mesh, blocks = ((folder / name).exists() for name in (poly_mesh.FOLDER, poly_mesh.BLOCKS))
-    profiles.check(case, own_mesh=mesh or blocks)
+    inlet_profiles.check(case, own_mesh=mesh or blocks)
     if mesh or not blocks:  # the patches of others are known when they are made
         write_start_fields(case, folder)
     if not mesh:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from coupling.openfoam import turbulence
-from sdph.case import profiles
+from sdph.case import inlet_profiles
 from sdph.case.sections import Boundary
 from sdph.schema import CaseError
 
@@ -100,13 +100,13 @@ def _velocity_inlet(case, boundary, name: str) -> dict[str, str]:
 
 def let_in(case, boundary) -> str:
     """Velocity of the gas that comes in: the same everywhere, at all times or by a table of them, or
-    `sdph.case.profiles.over_mean` times the mean, as a polynomial of the way along the side."""
+    `sdph.case.inlet_profiles.over_mean` times the mean, as a polynomial of the way along the side."""
     if boundary.velocities:
         rows = " ".join(f"({time!r} {vector(case, velocity)})" for time, *velocity in boundary.velocities)
         return f"type uniformFixedValue; uniformValue table ({rows});"
     if boundary.profile == "uniform":
         return fixed(vector(case, boundary.velocity))
-    axis, low, high = profiles.extent(case, boundary)
+    axis, low, high = inlet_profiles.extent(case, boundary)
     slope = [6.0 * u / (high - low) for u in boundary.velocity]
     terms = f"({vector(case, slope)} (1 1 1)) ({vector(case, [-s / (high - low) for s in slope])} (2 2 2))"
     along = vector(case, [float(a == axis) for a in range(2)])

@@ -19,7 +19,7 @@ class Boundary:
     span: tuple | None = vector("m", None)
     velocity: tuple | None = vector("m_s", None)  # of the gas that comes in, or with which a wall slides along itself
     velocities: tuple | None = vector("", None)  # or rows [time s, velocity m/s] of the gas (sdph.case.inlets)
-    profile: str = choice(*PEAK)  # of that gas along its side (sdph.case.profiles); `velocity` is its mean
+    profile: str = choice(*PEAK)  # of that gas along its side (sdph.case.inlet_profiles); `velocity` is its mean
     temperature: float | None = quantity("K", None, above=0.0)
     vapour_mass_fraction: float | None = quantity("", None, least=0.0, most=1.0)
     pressure: float | None = quantity("Pa", None)

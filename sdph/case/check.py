@@ -5,7 +5,19 @@ from __future__ import annotations
 from collections import Counter
 
 from sdph import effects, scenes
-from sdph.case import beside, bodies, forces, inlets, materials, periods, probed, profiles, regions, turbulent
+from sdph.case import (
+    beside,
+    bodies,
+    forces,
+    inlet_profiles,
+    inlets,
+    materials,
+    periods,
+    probed,
+    regions,
+    slices,
+    turbulent,
+)
 from sdph.case.extents import SAME, inside, mouth, probe, side
 from sdph.case.sections import Case, Part, Region
 from sdph.effects.liquids import bubble
@@ -98,13 +110,15 @@ def _check_one(case: Case) -> None:
         bodies.check(case)
     for name, boundary in case.boundaries.items():
         side(case, f"boundaries.{name}", boundary)
-    profiles.check(case)
+    inlet_profiles.check(case)
     inlets.check(case)
     for name, region in case.particles.items():
         _check_region(case, name, region)
     forces.check_parts(case)
     for name, point in case.probes.items():
         probe(case, f"probes.{name}", point)
+    for name, profile in case.profiles.items():
+        slices.check(case, f"profiles.{name}", profile)
     for name, nozzle in case.nozzles.items():
         mouth(case, f"nozzles.{name}", nozzle)
     columns_of_history(case)
@@ -193,6 +207,11 @@ def _check_components(case: Case) -> None:
 
 
 def _check_outputs(case: Case) -> None:
+    if case.run.average_from >= case.run.end_time:
+        given = f"run.average_from_s = {case.run.average_from:g}"
+        raise CaseError(
+            f"{given} is not before the end at {case.run.end_time:g} s; give an earlier time, or --until more"
+        )
     intervals = {"run.output_interval_s": case.run.output_interval}
     if case.liquid:
         intervals["liquid.history_interval_s"] = case.liquid.history_interval

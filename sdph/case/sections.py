@@ -26,6 +26,9 @@ class Run:
     step_factor: float = quantity("", 1.0, least=1e-6, most=1e3)  # sub-steps over the largest that the effects allow
     # error that is allowed: decides `effects = "auto"` and warnings
     accuracy: float = quantity("", 0.01, above=0.0, most=1.0)
+    average_from: float = quantity(
+        "s", 0.0, least=0.0
+    )  # means of the summary and profiles are over the time since then
     report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
     metrics: tuple = words(())  # of sdph.running.metrics, for metrics.csv and the summary
     forces: tuple = words(())  # names of sdph.case.forces, on which history.csv and the summary have forces
@@ -124,6 +127,19 @@ class Probe:
 
 
 @record
+class Profile:
+    """Means over slices across an axis, or over rings about one (`along = "r"`), and over time, of all that a grid of
+    gas cells tells of particles and gas: profile_NAME.csv. Without a box all cells count."""
+
+    along: str = choice("x", "y", "z", "r")
+    slice: float | None = quantity("m", None, above=0.0)  # thickness; without it a cell's
+    lower: tuple | None = vector("m", None)
+    upper: tuple | None = vector("m", None)
+    axis: str = choice("x", "y", "z", default="z")  # of rings
+    centre: tuple | None = vector("m", None)  # a place on that axis
+
+
+@record
 class Part:
     """Part of the walls' surface that lies in a box, as a name of `run.forces`, or with a temperature for the grains
     (sdph.engine.walls.faces)."""
@@ -172,6 +188,7 @@ class Case:
     particles: dict[str, Region]
     boundaries: dict[str, Boundary]
     probes: dict[str, Probe]
+    profiles: dict[str, Profile]
     parts: dict[str, Part]
     nozzles: dict[str, Nozzle]
     coupling: Coupling
@@ -219,7 +236,7 @@ class Case:
         kept = tuple(name for name in self.effects if matter in REGISTRY[name].matter and name not in given)
         left = {"effects": kept, "parameters": {name: self.parameters[name] for name in kept}}
         grains = dict.fromkeys(("gas", "grains", "vapour")) | {"track": ()}
-        grains |= {group: {} for group in ("particles", "boundaries", "probes", "nozzles", "materials")}
+        grains |= {group: {} for group in ("particles", "boundaries", "probes", "profiles", "nozzles", "materials")}
         liquid, solid = dict.fromkeys(("liquid", "gas_phase")) | {"pools": {}}, {"solid": None, "bodies": {}}
         others = {"grains": liquid | solid, "liquid": grains | solid, "solid": grains | liquid}
         return dataclasses.replace(self, **left, **others[matter])
@@ -271,6 +288,6 @@ class Case:
 
 SECTIONS = {"run": Run, "domain": Domain, "resolution": Resolution, "gas": GasProperties, "grains": Grains}
 GROUPS = {
-    "particles": Region, "pools": Pool, "bodies": Body, "boundaries": Boundary, "probes": Probe, "parts": Part,
-    "nozzles": Nozzle,
+    "particles": Region, "pools": Pool, "bodies": Body, "boundaries": Boundary, "probes": Probe,
+    "profiles": Profile, "parts": Part, "nozzles": Nozzle,
 }  # fmt: skip

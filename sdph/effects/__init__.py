@@ -120,9 +120,10 @@ def finite(limits: dict[str, float]) -> dict[str, float]:
 
 
 def arrays(case) -> set[str]:
-    """Arrays of the state that the effects that are on need, and grains of several materials."""
+    """Arrays of the state that the effects that are on need, and grains of several materials or that pass through."""
     of_grains = (*OF_MATERIAL, "diameter", "diameter_variance") if case.mixed else ()
-    return {*of_grains, *(name for effect in case.effects for name in REGISTRY[effect].arrays)}
+    passing = ("entered",) if case.grains and {"inflow", "outflow"}.issubset(case.effects) else ()
+    return {*of_grains, *passing, *(name for effect in case.effects for name in REGISTRY[effect].arrays)}
 
 
 def window_limits(parameters, case, state) -> dict[str, float]:

@@ -18,8 +18,8 @@ class Stalled(RuntimeError):
 
 
 class Clock:
-    """Landmarks of a run [s]: outputs of fields, rows of the history every `rows` [s], `run.report_at`, times at which
-    something else `turns`, the end.
+    """Landmarks of a run [s]: outputs of fields, rows of the history every `rows` [s], `run.report_at`, the time from
+    which means are taken, times at which something else `turns`, the end.
 
     A landmark within round-off of now is now. `shortest` [s] is the least that a window or step may be long; `limit`
     names what ruled the last one.
@@ -32,7 +32,7 @@ class Clock:
         self.outputs = every(run.output_interval, run.end_time)
         self.shortest = SAME * float(np.diff(self.outputs, prepend=0.0).max())
         regular = every(rows, run.end_time) if rows else ()
-        others = *regular, *run.report_at, *(time for time in turns if time > self.shortest)
+        others = *regular, *run.report_at, *(time for time in (run.average_from, *turns) if time > self.shortest)
         self.landmarks = with_others(self.outputs, others, self.shortest)
 
     def next(self, time: float) -> float:

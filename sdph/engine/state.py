@@ -36,6 +36,7 @@ FIELDS = {
     "kind": ("1", "0 grain, 1 wall, 2 liquid, 3 gas beside a liquid, 4 grain upstream of its nozzle, 5 solid"),
     "nozzle": ("1", "number of the nozzle that it comes from, counted from 1; 0: of none"),
     "entering": ("1", "1 until it is half a layer through its nozzle, then 0"),
+    "entered": ("s", "start of the window in which it came in; 0 of those that were there"),
     "temperature": ("K", "temperature of the grains"),
     "diameter": ("m", "number mean of the grain diameters"),
     "diameter_variance": ("m2", "number variance of the grain diameters"),
@@ -103,9 +104,9 @@ INTEGERS = {
 # arrays that not every state holds, by who has them; `CLASSES` join them
 OF_LIQUIDS = ("viscosity", "depth", "enclosure", "pressure")
 OF_GRAINS = (
-    "diameter", "diameter_variance", *OF_MATERIAL, "theta", "contact_xx", "contact_yy", "contact_xy", "contact_yz",
-    "contact_zx", "wall_age", "begun_temperature", "warming", "received", "exchanged", "warmth", "damping", "damped",
-    "way_x", "way_y", "way_z", "row",
+    "diameter", "diameter_variance", *OF_MATERIAL, "entered", "theta", "contact_xx", "contact_yy", "contact_xy",
+    "contact_yz", "contact_zx", "wall_age", "begun_temperature", "warming", "received", "exchanged", "warmth",
+    "damping", "damped", "way_x", "way_y", "way_z", "row",
 )  # fmt: skip
 OF_DROPLETS = (
     "evaporating", "born_mass", "born_diameter", "born_variance", "lost_still", "lost_moving", "lost_kinetic",

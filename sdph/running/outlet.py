@@ -20,12 +20,13 @@ FILE = "outflow.csv"
 class Outlet:
     """The record of what leaves: `note` it at the end of a window."""
 
-    KEPT = ("table", "left", "sums", "volume")  # see sdph.engine.kept
+    KEPT = ("table", "left", "sums", "volume", "stayed")  # see sdph.engine.kept
 
     def __init__(self, case, path: Path | None):
         self.case, self.table = case, Table(path)
         self.arrays, self.exits = carried(case), outflow.exits(case)
         self.left, self.nozzles = 0, ("", *case.nozzles)
+        self.stayed = np.zeros(2)  # mass [kg] of what nozzles gave and has left, and that times its stay [kg s]
         self.sums, self.volume = (np.zeros((len(self.exits), count)) for count in (4, sizing.BINS))
 
     def start(self) -> None:
@@ -55,6 +56,7 @@ class Outlet:
         found["outlet"] = [self.exits[number] for number in way]
         if "nozzle" in self.arrays:
             found["nozzle"] = [self.nozzles[number] for number in gone.nozzle]
+            found["residence_s"] = self._stayed(time, gone).tolist()
         axes = "xyz"[: self.case.dimensions]
         found |= {f"{a}_m": values.tolist() for a, values in zip(axes, (gone.x, gone.y, gone.z))}
         found |= {f"velocity_{a}_m_s": values.tolist() for a, values in zip(axes, (gone.u, gone.v, gone.w))}
@@ -62,6 +64,12 @@ class Outlet:
             found["temperature_K"] = gone.temperature.tolist()
         found["mass_kg"] = gone.mass.tolist()
         return found | (self._sizes(gone, way) if "diameter" in self.arrays else {})
+
+    def _stayed(self, time: float, gone) -> np.ndarray:
+        """Time (n,) [s] since each came in, or since the start; those of nozzles are counted."""
+        stayed, mass = time - gone.entered, gone.mass * (gone.nozzle > 0)
+        self.stayed += (mass.sum(), mass @ stayed)
+        return stayed
 
     def _sizes(self, gone, way) -> dict[str, list]:
         for number in np.unique(way):
@@ -75,6 +83,8 @@ class Outlet:
     def summary(self) -> dict[str, float]:
         """Number of drops or grains that left, and their diameters; of each outlet too where they left by several."""
         found = {"outflow_particles": self.left}
+        if self.stayed[0]:
+            found["outflow_residence_s"] = float(self.stayed[1] / self.stayed[0])
         if "diameter" not in self.arrays:
             return found
         found |= _told("outflow", self.sums.sum(axis=0), self.volume.sum(axis=0))

@@ -37,7 +37,7 @@ PIECES = "pieces"  # in the folder of fields, with the particles of each process
 ENDED = ("summary.json", "compare_*.json")
 LEFT = (  # by a run, as patterns; what else is in its folder is the user's
     "ledger.csv", "ledger_liquid.csv", "ledger_solid.csv", "droplets.csv", "outflow.csv", "history.csv", "metrics.csv",
-    "run.pvd", FAILURE, *ENDED, "last_good.*", "checkpoints", "gas", WALLS,
+    "profile_*.csv", "run.pvd", FAILURE, *ENDED, "last_good.*", "checkpoints", "gas", WALLS,
     "fields/particles_*.vt?", "fields/gas_*.vt?", "fields/liquid_*.vt?", "fields/solid_*.vt?", "fields/part-*.vt?",
     "fields/particles_*.pvtu", f"fields/{PIECES}/particles_*.vtu", f"fields/{PIECES}/part-*.vtu",
 )  # fmt: skip

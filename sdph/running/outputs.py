@@ -7,7 +7,7 @@ from pathlib import Path
 from sdph.engine import state as particles
 from sdph.engine.kept import ROW, Many, Unfit
 from sdph.engine.table import Table
-from sdph.running import metrics
+from sdph.running import averages, metrics
 from sdph.running.fields import Fields
 
 
@@ -19,7 +19,7 @@ class Outputs:
 
     def __init__(self, folder: Path, simulation, world):
         """Outputs into a folder, of which the chief of a world writes all but the particles of other processes."""
-        self.simulation, self.fields = simulation, Fields(folder, world)
+        self.simulation, self.fields, self.folder = simulation, Fields(folder, world), folder
         tables = (folder / name if world.chief else None for name in ("history.csv", "metrics.csv"))
         self.history, self.metrics = (Table(file) for file in tables)
         self.first, self.last, self.rows = {}, {}, []
@@ -60,6 +60,7 @@ class Outputs:
         self.metrics.write(self.rows[-1])
         for table in self._tables():  # who looks at a run that goes on sees all up to its last output
             table.flush()
+        averages.write(self.folder, self.simulation)
 
     def summary(self) -> dict:
         """summary.json, less the wall time of the whole."""

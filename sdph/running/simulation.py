@@ -18,6 +18,7 @@ from sdph.exchange.exchange import Exchange
 from sdph.exchange.window import Window, learned
 from sdph.methods.grains.grains import Grains
 from sdph.running import compiling, fast_gas, forces, haze, history, openings, outlet, output, through_gas
+from sdph.running.averages import Averages
 from sdph.running.beside import Beside
 from sdph.running.limiters import Limiters
 from sdph.running.work import Pushes
@@ -30,7 +31,7 @@ class Simulation:
 
     at_row = True  # the history has a row of every window
     # see sdph.engine.kept
-    KEPT = ("repeated", "wall", "grains", "exchange", "clock", "ledger", "beside", "limiters", "outlet")
+    KEPT = ("repeated", "wall", "grains", "exchange", "clock", "ledger", "beside", "limiters", "outlet", "averages")
 
     def __init__(self, case, gas, ledger):
         self.case, self.gas, self.ledger = case, gas, ledger
@@ -42,7 +43,7 @@ class Simulation:
         self.notices = self.grains.notices  # for the user, until somebody has passed them on
         self._weights_now, self.at_boundaries = None, {}  # what the gas did there in the last window
         self.beside, self.limiters = Beside(), Limiters()  # other methods; what limiters hold
-        self.outlet = outlet.beside(case, ledger.table)
+        self.outlet, self.averages = outlet.beside(case, ledger.table), Averages(case, gas.mesh)
         self.wall = dict.fromkeys(("particles", "exchange", "gas", "compiling"), 0.0)
 
     @staticmethod
@@ -153,6 +154,7 @@ class Simulation:
         self.clock.obey({"contact": self.beside.limit(self.state)})
         totals, budget = self._totals(), self.gas_state.budget
         self.ledger.close_window(end, dt, self.clock.limit, totals, budget, exchanged | self.grains.columns())
+        self.timed("exchange", self.averages.add, self, end - dt, end)
 
     def _look_back(self, handed, taken, dt: float) -> list[float]:
         """Take note of what the gas did in a window of `dt` [s] to grains as they were handed, which the next one has
@@ -260,7 +262,8 @@ class Simulation:
         """summary.json, its own part."""
         own = {"cells": len(self.gas.mesh.volumes)} | self.grains.summary() | {"windows_repeated": self.repeated}
         own |= self.limiters.summary() | (self.outlet.summary() if self.outlet else {})
-        own |= {f"mean_{name}": value for name, value in self._at_boundaries(None, self.time).items()}
+        time = self.averages.time(self.time)
+        own |= {f"mean_{name}": value for name, value in self._at_boundaries(self.averages, time).items()}
         own |= forces.summary(self.methods) | history.in_the_end(self.case, out.first, out.last)
         return own | self.beside.named(lambda method: method.summary() | method.ledger.summary())
 

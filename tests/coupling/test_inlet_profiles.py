@@ -12,7 +12,7 @@ from coupling.embedded.grid import build_grid
 from coupling.openfoam import start_fields
 from coupling.openfoam.case import write_case
 from sdph import scenes
-from sdph.case import profiles
+from sdph.case import inlet_profiles
 from sdph.case import read as cases
 from sdph.case.gas_cells import cell_edges
 from sdph.scenes import paths
@@ -108,4 +108,4 @@ def test_a_span_in_brackets_of_its_own_is_the_same():
     inlet |= {"temperature_K": 300.0}
     for span in ([0.1, 0.4], [[0.1, 0.4]]):
         own = box_case((0.5, 0.5), 0.05, boundaries={"inlet": inlet | {"span_m": span}})
-        assert profiles.extent(own, own.boundaries["inlet"]) == (0, 0.1, 0.4)
+        assert inlet_profiles.extent(own, own.boundaries["inlet"]) == (0, 0.1, 0.4)

@@ -187,7 +187,12 @@ class Replays:
             more = source.make(np.full(len(own.time), k), own.place, own.velocity)
             more.kind[:], more.entering[:] = GRAIN, 0
             more.mass[:], more.density[:] = own.mass, own.mass / source.pitch**3
-            values = {"theta": own.theta, "diameter": own.diameter, "diameter_variance": own.variance}
+            values = {
+                "entered": own.time,
+                "theta": own.theta,
+                "diameter": own.diameter,
+                "diameter_variance": own.variance,
+            }
             for name, column in values.items():
                 if len(getattr(more, name)):
                     getattr(more, name)[:] = column

@@ -78,6 +78,7 @@ class Source:
         self.mass, self.energy, self.motion = 0.0, 0.0, 0.0  # through the mouths [kg], heat and motion [J]
         self.masses = np.zeros(len(self.nozzles))  # the same of each nozzle [kg]
         self.momentum = np.zeros(3)  # [kg m/s]
+        self.now = 0.0  # time [s] of the last `fill`
 
     @property
     def heaviest(self) -> float:
@@ -99,6 +100,7 @@ class Source:
 
     def fill(self, state, time: float, dt: float):
         """The state with the layers that the window from `time` of `dt` [s] needs, and what tables give till then."""
+        self.now = time
         for more in self.replays.come(self, time):
             self._count(more)
             state = particles.join(state, more)
@@ -252,6 +254,8 @@ class Source:
             for array, column in zip((state.u, state.v, state.w), velocity.T):
                 array[rows[own]] = column
         state.kind[rows] = self.inside_kind
+        if len(state.entered):
+            state.entered[rows] = self.now
         self._count(particles.take(state, rows))
 
     def _count(self, out) -> None:

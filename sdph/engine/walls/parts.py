@@ -63,31 +63,38 @@ def told(name: str, matter: str, rubs: str, force: np.ndarray, dimensions: int) 
     return found | {f"{name}_{matter}_moment_{a}_Nm": float(value) for a, value in about}
 
 
+def counts(begun: float, end: float, start: float) -> bool:
+    """Tell whether a window counts for means since `start` [s], at which a window ends but for round-off."""
+    return begun + end >= 2.0 * start
+
+
 class Pushed:
     """Impulses [N s] of a matter on named parts, and their moments about the origin [N m s]: since the last row of the
-    history, and since the start; per metre of depth in two dimensions."""
+    history, and since the time `start` [s]; per metre of depth in two dimensions."""
 
     KEPT = ("sums", "times")  # see sdph.engine.kept
 
-    def __init__(self, matter: str, rubs: str, names, dimensions: int):
+    def __init__(self, matter: str, rubs: str, names, dimensions: int, start: float = 0.0):
         self.matter, self.rubs, self.names, self.dimensions = matter, rubs, tuple(names), dimensions
+        self.start = start
         self.sums, self.times = np.zeros((2, len(self.names), 3, 3)), np.zeros(2)  # times [s]
 
     def new_row(self) -> None:
         """Begin anew: the history has a row of now."""
         self.sums[0], self.times[0] = 0.0, 0.0
 
-    def add(self, given: np.ndarray, dt: float) -> None:
-        """Take what `dt` [s] brought, (n, 3, 3) as of `gathered`."""
-        self.sums += given
-        self.times += dt
+    def add(self, given: np.ndarray, begun: float, end: float) -> None:
+        """Take what the time from `begun` to `end` [s] brought, (n, 3, 3) as of `gathered`."""
+        counted = 2 if counts(begun, end, self.start) else 1
+        self.sums[:counted] += given
+        self.times[:counted] += end - begun
 
     def row(self) -> dict[str, float]:
         """Means since the last row by column; nan of no time."""
         return self._means(0)
 
     def summary(self) -> dict[str, float]:
-        """Means since the start."""
+        """Means since the time from which they are taken."""
         return {f"mean_{key}": value for key, value in self._means(1).items()}
 
     def _means(self, since: int) -> dict[str, float]:

@@ -58,7 +58,7 @@ class Guard(Watch):
         }
         bounds |= {"temperature": (self.coldest, self.hottest), "theta": (0.0, (COLLAPSE * self.reach) ** 2)}
         bounds |= {"sealed": (0.0, 1.0), "throwing": zero_on, "bubble_void": (0.0, size**3)}
-        bounds |= {"deformation": (-math.inf, 1.0), "weber": zero_on, "wall_age": zero_on}
+        bounds |= {"deformation": (-math.inf, 1.0), "weber": zero_on, "wall_age": zero_on, "entered": zero_on}
         bounds |= {"material": (0, len(self.case.kinds) - 1)} | {
             name: (min(own), max(own))
             for name, own in zip(particles.OF_MATERIAL[1:], zip(*(grains.of_particles for grains in self.case.kinds)))

@@ -50,8 +50,8 @@ class Grains:
         self.stepper = Stepper(case, self.parameters, state, self.source, Clock(case.run).shortest)
         self.world, self.stepper.domain.parted = self.stepper.world, own.number > 1
         self.time, self.windows, self.came, self.left = 0.0, 0, self._came_in(), self._nothing_left()
-        self.pushed = Pushed("grain", "friction", self.stepper.parts, case.dimensions)
-        self.warmed = Warmed(self.stepper.hot)
+        self.pushed = Pushed("grain", "friction", self.stepper.parts, case.dimensions, case.run.average_from)
+        self.warmed = Warmed(self.stepper.hot, case.run.average_from)
         self.gone = None  # State of what has left in the window
         self.packed = self.crowded = False  # True once it was told that they, or cells, are packed beyond their limit
         self.torn = dict(micro_explosion.NOTHING_TORN)  # in the window
@@ -128,8 +128,8 @@ class Grains:
         """End the window, of which the history has a row; `way` and `damped` are what `Stepper.release` tells of it."""
         self._tell_packed()
         self.pushed.new_row()
-        self.pushed.add(self.stepper.pushed(), self.time - self.begun)
-        self.warmed.add(self.world.sum(self.stepper.account.gave), self.time - self.begun)
+        self.pushed.add(self.stepper.pushed(), self.begun, self.time)
+        self.warmed.add(self.world.sum(self.stepper.account.gave), self.begun, self.time)
         self.way, self.damped = self.stepper.release()
         if self.source and self.world.number > 1:
             for name, before in zip(CAME_IN, self.came):  # through the mouths of all processes

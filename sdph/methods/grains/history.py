@@ -8,6 +8,7 @@ import numpy as np
 
 from sdph import effects
 from sdph.engine import state as particles
+from sdph.engine.walls.parts import counts
 from sdph.engine.world import here
 
 TRACKED = {
@@ -58,27 +59,28 @@ def of_materials(case, state) -> dict[str, float]:
 
 class Warmed:
     """Heat [J] that each wall with a temperature gave the grains, and the area that they covered of it, times time
-    [m2 s]: in the last window, and since the start; per metre of depth in two dimensions."""
+    [m2 s]: in the last window, and since the time `start` [s]; per metre of depth in two dimensions."""
 
     KEPT = ("sums", "times")  # see sdph.engine.kept
 
-    def __init__(self, hot):
-        self.hot, self.names = hot, hot.names if hot else ()
+    def __init__(self, hot, start: float):
+        self.hot, self.names, self.start = hot, hot.names if hot else (), start
         self.sums, self.times = np.zeros((2, len(self.names), 2)), np.zeros(2)  # times [s]
 
-    def add(self, gave: np.ndarray, dt: float) -> None:
-        """Take what a window of `dt` [s] brought, (F, 2) of each face."""
-        self.times = np.array([dt, self.times[1] + dt])
+    def add(self, gave: np.ndarray, begun: float, end: float) -> None:
+        """Take what a window from `begun` to `end` [s] brought, (F, 2) of each face."""
+        counted = float(counts(begun, end, self.start))
+        self.times = np.array([end - begun, self.times[1] + counted * (end - begun)])
         if self.hot:
             own = self.hot.owners @ gave
-            self.sums = np.array([own, self.sums[1] + own])
+            self.sums = np.array([own, self.sums[1] + counted * own])
 
     def row(self) -> dict[str, float]:
         """Means of the window by column: heat [W], share of the area that grains cover; nan of no time."""
         return self._means(0)
 
     def summary(self) -> dict[str, float]:
-        """Means since the start, and areas [m2]."""
+        """Means since the time from which they are taken, and areas [m2]."""
         areas = zip(self.names, self.hot.areas) if self.hot else ()
         sizes = {f"{name}_area_m2": float(area) for name, area in areas}
         return {f"mean_{key}": value for key, value in self._means(1).items()} | sizes

@@ -43,7 +43,7 @@ class Liquid(Stepped):
         self.scaled = np.zeros(4)  # impulse [N s] and energy [J] by `hasten` since the last window
         self.pace = 1.0  # seconds that pass for heat in one of the motion: sdph.effects.liquids.time_scaling
         named = self.stepper.parts.names if self.stepper.parts else ()
-        self.pushed = Pushed("liquid", "viscous", named, case.dimensions)
+        self.pushed = Pushed("liquid", "viscous", named, case.dimensions, case.run.average_from)
         self.impulse, self.since = np.zeros(6), 0.0  # force and moment on the tank since the last row, and its time [s]
 
     def admit(self, kept: dict) -> None:
@@ -77,7 +77,7 @@ class Liquid(Stepped):
 
     def close(self) -> None:
         self.impulse = self.impulse + self.tally.sums[account.LOADS]
-        self.pushed.add(self.tally.sums[account.SIZE :].reshape(-1, 3, 3), self.time - self.begun)
+        self.pushed.add(self.tally.sums[account.SIZE :].reshape(-1, 3, 3), self.begun, self.time)
         self.stepper.guard.look(self.stepper)
         self.ledger.close_window(self.stepper, self.time - self.begun, *self.tally.amounts())
         self.scaled = np.zeros(4)

@@ -56,5 +56,6 @@ def of(height, volume, is_jetsam, jetsam: str, flotsam: str) -> dict[str, float]
     found["segregation"] = (means[1] / means[0] - 1.0) / (most - 1.0) if means[0] > 0.0 else math.nan
     order = np.argsort(height)
     above = order[np.cumsum(volume[order]) > (1.0 - TOP) * volume.sum()]
-    found["mixing_index"] = float(own[above].sum() / volume[above].sum() / share)
+    lies = volume[above].sum()  # nothing, of a process without grains
+    found["mixing_index"] = float(own[above].sum() / lies / share) if lies else math.nan
     return found

@@ -25,7 +25,13 @@ from sdph.study.cost import rows as measured_rows
 from sdph.study.cost.ladder import ALL, Ladder, case_of, declared, rungs
 
 KEPT = ("wall_s", "wall_particles_s", "wall_exchange_s", "wall_gas_s", "particles", "cells", "windows", "sub_steps")
-SHORT = "run.end_time_s=1e-6", "run.output_interval_s=1e-6", "run.report_at_s=[]", "coupling.window_largest_s=1e-6"
+SHORT = (
+    "run.end_time_s=1e-6",
+    "run.output_interval_s=1e-6",
+    "run.report_at_s=[]",
+    "run.average_from_s=0",
+    "coupling.window_largest_s=1e-6",
+)
 
 
 def climb(scene: str, file: Path, budget: float, repeats: int, report) -> list[dict]:

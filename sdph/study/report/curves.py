@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import io
 import re
 
@@ -28,11 +29,36 @@ def curves(runs: list[Shown]) -> str:
         if column != "time_s" and any(_varies(_series(run, column)[1]) for run in runs):
             groups.setdefault(_kind(column), []).append(column)
     order = sorted(groups, key=lambda kind: _rank(kind, runs))
-    drawn = [_panel(runs, groups[kind]) for kind in order]
+    return section("Curves", _panels([_panel(runs, groups[kind], _series, "time_s") for kind in order]))
+
+
+def profiles(runs: list[Shown]) -> str:
+    """Means over slices and time, a panel for each kind of number, of all runs that have a profile of a name."""
+    along = {name: f"{own.along}_m" for run in runs for name, own in run.case.profiles.items()}
+    parts = [f"<h3>{html.escape(name)}</h3>{_profile(runs, name, place)}" for name, place in along.items()]
+    return section("Profiles", "".join(parts))
+
+
+def _profile(runs: list[Shown], name: str, place: str) -> str:
+    """Panels of one profile over a `place`, a column."""
+    tables = {run.folder: run.profile(name) for run in runs}
+
+    def series(run: Shown, column: str) -> tuple[np.ndarray, np.ndarray]:
+        own = tables[run.folder]
+        return tuple(own.get(key, np.zeros(0)) for key in (place, column))
+
+    groups: dict[str, list[str]] = {}
+    for column in dict.fromkeys(key for own in tables.values() for key in own if key != place):
+        if any(_varies(series(run, column)[1]) for run in runs):
+            groups.setdefault(_kind(column), []).append(column)
+    return _panels([_panel(runs, own, series, place) for own in groups.values()])
+
+
+def _panels(drawn: list[str]) -> str:
     first, rest = (
         f'<div class="panels">{"".join(part)}</div>' if part else "" for part in (drawn[:MOST], drawn[MOST:])
     )
-    return section("Curves", first + folded(f"{len(drawn[MOST:])} more curves", rest))
+    return first + folded(f"{len(drawn[MOST:])} more curves", rest)
 
 
 def _series(run: Shown, column: str) -> tuple[np.ndarray, np.ndarray]:
@@ -64,23 +90,24 @@ def _rank(kind: str, runs: list[Shown]) -> int:
     return 2 if "force" in kind else 4 if followed else 3
 
 
-def _panel(runs: list[Shown], columns: list[str]) -> str:
+def _panel(runs: list[Shown], columns: list[str], series, along: str) -> str:
+    """Curves of `series` (of a run and a column) over `along`, a column too."""
     figure, axis = _figure(*PANEL)
     name, unit = spoken(_kind(columns[0]) if len(columns) > 1 else columns[0])
     for i, run in enumerate(runs):
         for j, column in enumerate(columns):
-            time, values = _series(run, column)
+            way, values = series(run, column)
             label = " ".join(part for part in (run.name * (len(runs) > 1), _part(column) * (len(columns) > 1)) if part)
             look = (i, j) if len(runs) > 1 else (j, 0)
             colour, line = COLOURS[look[0] % len(COLOURS)], STYLES[look[1] % len(STYLES)]
-            if len(time):
-                axis.plot(time, values, line, color=colour, linewidth=1.4, label=plain(label))
-            for when, value, bar in _references(run, column):
+            if len(way):
+                axis.plot(way, values, line, color=colour, linewidth=1.4, label=plain(label))
+            for when, value, bar in _references(run, column) if along == "time_s" else ():
                 axis.errorbar(when, value, bar, fmt="o", color="black", markersize=4, capsize=3, linewidth=1)
     if len(runs) > 1 or len(columns) > 1:
         axis.legend(fontsize=7, frameon=False)
     axis.set_title(plain(name + (f" [{unit}]" if unit else "")), fontsize=9, loc="left")
-    axis.set_xlabel("time [s]", fontsize=8)
+    axis.set_xlabel("{} [{}]".format(*spoken(along)), fontsize=8)
     axis.locator_params(nbins=5)
     return _drawn(figure, name)
 

@@ -36,8 +36,16 @@ def write(folders: list[Path], target: Path) -> Path:
         raise CaseError(f"{target} is no file that a report could be written to; give another --out")
     runs = told_apart([opened(Path(folder)) for folder in folders])
     title = " and ".join(dict.fromkeys(run.case.title or run.name for run in runs))
-    parts = [f"<h1>{html.escape(title)}</h1>", glance.shown(runs), curves.curves(runs), bars.checks(runs)]
-    parts += [_steadiness(runs), _views(runs), _pictures(runs), bars.closures(runs), bars.times(runs), _results(runs)]
+    parts = [f"<h1>{html.escape(title)}</h1>", glance.shown(runs), curves.curves(runs), curves.profiles(runs)]
+    parts += [
+        bars.checks(runs),
+        _steadiness(runs),
+        _views(runs),
+        _pictures(runs),
+        bars.closures(runs),
+        bars.times(runs),
+        _results(runs),
+    ]
     parts += [_limiters(runs), _effects(runs), _settings(runs), _versions(runs)]
     style = (paths.PACKAGE / "study" / "report" / "style.css").read_text(encoding="utf-8")
     page = PAGE.format(title=html.escape(title), style=style, body="\n".join(parts), script=SCRIPT)

@@ -42,6 +42,10 @@ class Shown:
         """Columns of metrics.csv."""
         return _columns(self.folder / "metrics.csv")
 
+    def profile(self, name: str) -> dict[str, np.ndarray]:
+        """Columns of profile_NAME.csv; empty where there is none."""
+        return _columns(self.folder / f"profile_{name}.csv")
+
     @cached_property
     def comparisons(self) -> dict[str, list[dict]]:
         """Name of a reference -> checks of `sdph compare` against it."""
@@ -125,10 +129,10 @@ def picture(data: bytes, name: str, kind: str = "png", mark: str = "") -> str:
 
 
 UNITS = (  # endings of keys and columns, the longer before the shorter -> unit
-    ("_kg_m_s", "kg m/s"), ("_kg_m3", "kg/m³"), ("_kg_s", "kg/s"), ("_m2_s2", "m²/s²"), ("_m_s2", "m/s²"),
-    ("_m_s", "m/s"), ("_Pa_m", "Pa/m"), ("_Pa", "Pa"), ("_Nm", "N m"), ("_N", "N"), ("_J", "J"), ("_W", "W"),
-    ("_K", "K"), ("_kg", "kg"), ("_m3", "m³"), ("_m2", "m²"), ("_mm", "mm"), ("_ms", "ms"), ("_deg", "°"), ("_m", "m"),
-    ("_s", "s"), ("_share", ""), ("_rel", ""),
+    ("_kg_m2_s", "kg/(m² s)"), ("_kg_m_s", "kg m/s"), ("_kg_m3", "kg/m³"), ("_kg_s", "kg/s"), ("_m2_s2", "m²/s²"),
+    ("_m_s2", "m/s²"), ("_m_s", "m/s"), ("_Pa_m", "Pa/m"), ("_Pa", "Pa"), ("_Nm", "N m"), ("_N", "N"), ("_J", "J"),
+    ("_W", "W"), ("_K", "K"), ("_kg", "kg"), ("_m3", "m³"), ("_m2", "m²"), ("_mm", "mm"), ("_ms", "ms"),
+    ("_deg", "°"), ("_m", "m"), ("_s", "s"), ("_share", ""), ("_rel", ""),
 )  # fmt: skip
 
 

@@ -58,11 +58,16 @@ def test_means_are_since_the_last_row_and_since_the_start():
     assert all(math.isnan(value) for value in own.row().values()) and len(own.row()) == 10
     force = np.zeros((2, 3, 3))
     force[1, 0, 1], force[1, 2, 2] = -6.0, 2.0
-    own.add(2.0 * force, 2.0)
+    own.add(2.0 * force, 0.0, 2.0)
     own.new_row()
-    own.add(force, 0.5)
+    own.add(force, 2.0, 2.5)
     assert own.row()["tube_grain_pressure_force_y_N"] == -12.0 and own.row()["tube_grain_moment_z_Nm"] == 4.0
     assert own.summary()["mean_tube_grain_pressure_force_y_N"] == pytest.approx(-18.0 / 2.5, rel=1e-15)
     assert own.row()["floor_grain_friction_force_x_N"] == 0.0  # nothing touches it
+    late = parts.Pushed("grain", "friction", ["tube"], 2, start=2.0)
+    late.add(2.0 * force[1:], 0.0, 2.0 + 1e-12)
+    assert math.isnan(late.summary()["mean_tube_grain_moment_z_Nm"]) and late.row()["tube_grain_moment_z_Nm"] > 1.9
+    late.add(force[1:], 2.0 + 1e-12, 2.5)
+    assert late.summary()["mean_tube_grain_moment_z_Nm"] == pytest.approx(4.0, rel=1e-9)
     names = [key for key in parts.told("a", "gas", "viscous", np.zeros((3, 3)), 3)]
     assert names[-3:] == ["a_gas_moment_x_Nm", "a_gas_moment_y_Nm", "a_gas_moment_z_Nm"] and len(names) == 9
