@@ -10,8 +10,14 @@ from hypothesis import strategies as st
 from sdph.engine import clock
 
 
-def of(end, interval, rows=None, report_at=()):
-    return clock.Clock(SimpleNamespace(end_time=end, output_interval=interval, report_at=report_at), rows)
+def of(end, interval, rows=None, report_at=(), average_from=0.0):
+    run = {"end_time": end, "output_interval": interval, "report_at": report_at, "average_from": average_from}
+    return clock.Clock(SimpleNamespace(**run), rows)
+
+
+def test_a_window_ends_where_means_begin():
+    assert of(1.0, 0.5, average_from=0.3).next(0.0) == 0.3
+    assert of(1.0, 0.5).next(0.0) == 0.5
 
 
 @pytest.mark.parametrize(("count", "interval"), [(12, 0.05), (3, 0.1), (7, 0.01), (6, 0.1), (1000, 1e-3)])
