@@ -52,10 +52,9 @@ def test_a_short_run_keeps_its_balances_and_its_seeds(tmp_path, beds):
     assert packed < 1.1 * rows["bed_height_m"].min() and 1.2 * packed < rows["bed_height_m"].max() < beds.HIGHER
     assert rows["weight_Pa"] == pytest.approx(MASS * 9.80665 * (1.0 - 1.2e-3) / (0.044 * 0.01), rel=1e-3)
     assert np.mean(rows["superficial_velocity_m_s"][1:]) == pytest.approx(0.9, rel=0.15)
-    whole, *_ = parts = beds.means(run.folder, 0.1, 0.3)
+    whole = beds.means(run.folder, 0.1, 0.3)
     voidage = np.concatenate([own.values for (name, _), own in whole.items() if name == "voidage"])
     assert 0.37 < voidage.min() < voidage.max() < 1.0
-    assert all(0.0 < beds.scatter(parts, key) < 20.0 for key in whole)
 
 
 def averages(beds, alpha_p, rise):
@@ -102,8 +101,20 @@ def test_profiles_off_by_more_than_the_bar_are_told(tmp_path, monkeypatch, beds,
     """Bars by hand: 0.05 of voidage; of the speed 0.05 m/s, or 30 % of it where that is more."""
     off = {"voidage": lambda v: 0.05, "uy_particle": lambda v: np.maximum(0.05, 0.3 * np.abs(v))}
     ours = {key: own._replace(values=own.values + bars * off[key[0]](own.values)) for key, own in beds.found().items()}
-    monkeypatch.setattr(beds, "means", lambda *_: [ours, ours, ours])
-    monkeypatch.setattr(beds.driver, "run", lambda *_: None)
+    shifts = iter([-0.04, 0.0, 0.04] * 2)  # of runs, whose mean counts
+    shifted = lambda by: {key: own._replace(values=own.values + by) for key, own in ours.items()}  # noqa: E731
+    monkeypatch.setattr(beds, "means", lambda *_: shifted(next(shifts)))
+    ran = []
+    monkeypatch.setattr(beds.driver, "run", lambda case, *_: ran.append(case.particles["bed"].seed))
     checks = beds.checks(tmp_path)
+    assert ran == [1, 2, 3] * 2
     assert [check["ok"] for check in checks] == [ok] * 20
     assert (tmp_path / "bed_profiles.png").is_file()
+
+
+def test_doubt_is_the_standard_error_of_the_mean_of_runs(beds):
+    """Runs off by -1, 0 and 1 bar of voidage: deviation of one bar, over the root of three."""
+    key, own = ("voidage", 0.0164), beds.found()["voidage", 0.0164]
+    parts = [{key: own._replace(values=own.values + 0.05 * off)} for off in (-1.0, 0.0, 1.0)]
+    assert beds.doubt(parts, key) == pytest.approx(3.0**-0.5)
+    assert beds.of_all(parts)[key].values == pytest.approx(own.values)
