@@ -56,7 +56,7 @@ def facets(folder: Path, boundaries: dict, dimensions: int) -> Facets:
     patches = reader.read()["boundary"]
     found = [_facets(np.zeros((0, dimensions, dimensions)), WALL, -1)]
     for name, kind in types(folder).items():
-        kind = boundaries[name].kind if name in boundaries and kind != FLAT else kind
+        kind = _kind(boundaries[name]) if name in boundaries and kind != FLAT else kind
         if kind not in KINDS or name not in patches.keys() or not patches[name].n_cells:  # noqa: SIM118  (MultiBlock)
             continue
         corners = _lines(name, patches[name]) if dimensions == 2 else _triangles(patches[name])
@@ -70,6 +70,11 @@ def _facets(corners, kind: str, owner: int) -> Facets:
     return Facets(corners, like == "slip_wall", like == OUTLET, np.full(len(corners), owner))
 
 
+def _kind(boundary) -> str:
+    """Kind of a boundary for grains: one that lets them out is an outlet."""
+    return OUTLET if boundary.lets_out else boundary.kind
+
+
 def _number(name: str, boundaries: dict) -> int:
     """Number of the boundary that a patch is, -1 where it is none."""
     return list(boundaries).index(name) if name in boundaries else -1
@@ -81,7 +86,7 @@ def of_mesh(mesh, boundaries: dict, dimensions: int) -> Facets:
     every = [_facets(np.zeros((0, dimensions, dimensions)), WALL, -1)]
     low = mesh.points[:, 2].min() + 0.5 * np.ptp(mesh.points[:, 2])
     for name, patch in mesh.patches.items():
-        kind = boundaries[name].kind if name in boundaries and patch.kind != FLAT else patch.kind
+        kind = _kind(boundaries[name]) if name in boundaries and patch.kind != FLAT else patch.kind
         for k in range(patch.faces.start, patch.faces.stop) if kind in KINDS else ():
             face = mesh.points[mesh.corners[mesh.first[k] : mesh.first[k + 1]]]
             if dimensions == 3:

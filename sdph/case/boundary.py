@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from sdph.engine.geometry import SIDES
-from sdph.schema import choice, quantity, record, vector
+from sdph.schema import choice, flag, quantity, record, vector
 
 PEAK = {"uniform": 1.0, "parabolic": 1.5}  # profile of an inlet -> its largest velocity over the mean
 
@@ -23,6 +23,12 @@ class Boundary:
     temperature: float | None = quantity("K", None, above=0.0)
     vapour_mass_fraction: float | None = quantity("", None, least=0.0, most=1.0)
     pressure: float | None = quantity("Pa", None)
+    catches: bool = flag(False)  # a wall that grains and droplets stick to: they leave the run there, by `outflow`
+
+    @property
+    def lets_out(self) -> bool:
+        """True where grains leave: through an outlet, or into a wall that they stick to."""
+        return self.kind == "pressure_outlet" or self.catches
 
     @property
     def lets_in(self) -> bool:

@@ -55,6 +55,11 @@ def side(case, where: str, boundary) -> None:
     if slides and (boundary.side is None or boundary.velocity[SIDES[boundary.side][0]] != 0.0):
         given = f"{where}.velocity_m_s = {list(boundary.velocity)}"
         raise CaseError(f"{given}; a wall slides along its side: name the side, and give 0 at right angles to it")
+    stuck = boundary.kind in ("wall", "slip_wall") and {"walls", "outflow"}.issubset(case.effects)
+    if boundary.catches and not stuck:
+        raise CaseError(
+            f"{where}.catches is of a wall, and of the effects walls and outflow: add these, or leave it out"
+        )
     if boundary.span is None:
         return
     if boundary.side is None:

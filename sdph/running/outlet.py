@@ -20,12 +20,13 @@ FILE = "outflow.csv"
 class Outlet:
     """The record of what leaves: `note` it at the end of a window."""
 
-    KEPT = ("table", "left", "sums", "volume", "stayed")  # see sdph.engine.kept
+    KEPT = ("table", "left", "sums", "volume", "mass", "stayed")  # see sdph.engine.kept
 
     def __init__(self, case, path: Path | None):
         self.case, self.table = case, Table(path)
         self.arrays, self.exits = carried(case), outflow.exits(case)
         self.left, self.nozzles = 0, ("", *case.nozzles)
+        self.mass = np.zeros(len(self.exits))  # [kg] that left by each
         self.stayed = np.zeros(2)  # mass [kg] of what nozzles gave and has left, and that times its stay [kg s]
         self.sums, self.volume = (np.zeros((len(self.exits), count)) for count in (4, sizing.BINS))
 
@@ -52,6 +53,7 @@ class Outlet:
     def _columns(self, time: float, gone) -> dict[str, list]:
         """Name -> a value a particle; sizes are counted."""
         way = outflow.through(self.case, gone)
+        self.mass += np.bincount(way, gone.mass, len(self.exits))
         found = {"time_s": [time] * len(gone.x), "particle": gone.ident.tolist()}
         found["outlet"] = [self.exits[number] for number in way]
         if "nozzle" in self.arrays:
@@ -83,6 +85,8 @@ class Outlet:
     def summary(self) -> dict[str, float]:
         """Number of drops or grains that left, and their diameters; of each outlet too where they left by several."""
         found = {"outflow_particles": self.left}
+        used = np.flatnonzero(self.mass)
+        found |= {f"outflow_{self.exits[way]}_kg": float(self.mass[way]) for way in (used if len(used) > 1 else ())}
         if self.stayed[0]:
             found["outflow_residence_s"] = float(self.stayed[1] / self.stayed[0])
         if "diameter" not in self.arrays:

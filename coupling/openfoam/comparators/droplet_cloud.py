@@ -38,7 +38,7 @@ def _meeting(case: Case, patch: str) -> str:
     """Fate of droplets at a patch: `walls` holds them everywhere but at an outlet of `outflow`; without
     `walls` they leave."""
     own = case.boundaries.get(patch)
-    outlet = own is not None and own.kind == "pressure_outlet" and "outflow" in case.effects
+    outlet = own is not None and own.lets_out and "outflow" in case.effects
     if outlet or "walls" not in case.effects:
         return "type escape;"
     return f"type rebound; e {case.parameters['walls'].restitution!r}; mu 0;"

@@ -18,8 +18,8 @@ from sdph.schema import CaseError, record
 
 @record
 class Outflow:
-    """Has no input of its own: grains leave through every pressure_outlet, and where no `walls` hold them; liquid
-    every side of the domain on which no wall of a box stands."""
+    """Has no input of its own: grains leave through every pressure_outlet, into walls that catch them, and where no
+    `walls` hold them; liquid every side of the domain on which no wall of a box stands."""
 
 
 class OutflowP(NamedTuple):
@@ -46,9 +46,9 @@ def leaving(case, state, foreseen: bool = False) -> np.ndarray:
 
 
 def exits(case) -> list[str]:
-    """Names of what grains can leave through: pressure outlets, in a box those on sides, then sides as such,
-    `left_side` and so on."""
-    every = [name for name, own in case.boundaries.items() if own.kind == "pressure_outlet"]
+    """Names of what grains can leave through: pressure outlets and walls that catch them, in a box those on sides, then
+    sides as such, `left_side` and so on."""
+    every = [name for name, own in case.boundaries.items() if own.lets_out]
     outlets = [name for name in every if case.boundaries[name].side or _of_patches(case)]
     return outlets + [f"{side}_side" for pair in PAIRS[: case.dimensions] for side in pair]
 
@@ -145,7 +145,7 @@ def refuse_to_leave(case, state, gone, time: float) -> None:
 
 def _rest(case) -> list[str]:
     """Names of the outlets without a side: patches of a mesh, or all of a box that is left over."""
-    return [name for name, own in case.boundaries.items() if own.kind == "pressure_outlet" and not own.side]
+    return [name for name, own in case.boundaries.items() if own.lets_out and not own.side]
 
 
 def _larger(case) -> str:
@@ -172,14 +172,14 @@ def _outlets(case, side: str, axis: int, places) -> np.ndarray:
         if own.side == side:
             here = _within(own, axis, places)
             named |= here
-            found |= here & (own.kind == "pressure_outlet")
+            found |= here & own.lets_out
     first = next((own for own in case.boundaries.values() if own.side is None), None)
-    return found | ~named if first and first.kind == "pressure_outlet" and not _of_patches(case) else found
+    return found | ~named if first and first.lets_out and not _of_patches(case) else found
 
 
 def outlets_of(case, side: str) -> list:
     """(name, boundary) of the pressure outlets on a side."""
-    return [(name, b) for name, b in case.boundaries.items() if b.side == side and b.kind == "pressure_outlet"]
+    return [(name, b) for name, b in case.boundaries.items() if b.side == side and b.lets_out]
 
 
 def _within(boundary, axis: int, places) -> np.ndarray:

@@ -102,7 +102,7 @@ def names(case) -> list[str]:
     own, period = case.parameters.get("walls"), case.domain.period
     if own is None:
         return []
-    found = [name for name, boundary in case.boundaries.items() if boundary.kind != "pressure_outlet"]
+    found = [name for name, boundary in case.boundaries.items() if not boundary.lets_out]
     if not _vessel(own):
         closed = [side for side, (axis, _) in SIDES.items() if axis < case.dimensions and not period[axis]]
         found += [name for name in (*closed, *([MESH] if own.mesh else [])) if name not in case.boundaries]
@@ -177,7 +177,8 @@ def _box(case) -> Placed:
     table[:, 3 : 3 + d] = np.where(single[:, None], outside[keep, :, 0] * 1.0 - outside[keep, :, 1] * 1.0, 0.0)
     table[:, 6] = depth[keep].max(axis=1)
     slips = np.stack(
-        [_behind(case, points, side, "slip_wall") for side in itertools.islice(SIDES, 2 * d)], axis=1
+        [_behind(case, points, side, lambda own: own.kind == "slip_wall") for side in itertools.islice(SIDES, 2 * d)],
+        axis=1,
     ).reshape(-1, d, 2)
     table[:, 7] = (outside & ~slips)[keep].any(axis=(1, 2))  # in a corner the side that grips rules
     for side, behind in zip(SIDES, outside.reshape(len(points), 2 * d).T):
@@ -190,14 +191,14 @@ def _box(case) -> Placed:
 
 
 def _closed(case, points, side: str) -> np.ndarray:
-    """Mask of the points in front of which a side holds grains back: all but pressure outlets do."""
-    return ~_behind(case, points, side, "pressure_outlet")
+    """Mask of the points in front of which a side holds grains back: all but what lets them out do."""
+    return ~_behind(case, points, side, lambda own: own.lets_out)
 
 
-def _behind(case, points, side: str, kind: str) -> np.ndarray:
-    """Mask of the points in front of which a side is a boundary of `kind`."""
+def _behind(case, points, side: str, meant) -> np.ndarray:
+    """Mask of the points in front of which a side is a boundary that is `meant`."""
     owners = _owners(case, points, side)
-    return np.isin(owners, [number for number, own in enumerate(case.boundaries.values()) if own.kind == kind])
+    return np.isin(owners, [number for number, own in enumerate(case.boundaries.values()) if meant(own)])
 
 
 def _owners(case, points, side: str) -> np.ndarray:

@@ -93,6 +93,6 @@ class Measures(Extremes):
         own = self.case.domain
         for axis, ends, low, high, period in zip(particles.axes(s), PAIRS, own.corner, own.upper, own.period):
             for side, beyond in zip(ends, (axis < low, axis > high) if not period else ()):
-                if not any(b.side == side and b.kind == "pressure_outlet" for b in self.case.boundaries.values()):
+                if not any(b.side == side and b.lets_out for b in self.case.boundaries.values()):
                     out |= beyond
         return int(out.sum())

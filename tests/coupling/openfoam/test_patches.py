@@ -1,7 +1,5 @@
 """Patches of an OpenFOAM mesh as walls of the grains: areas, normals into the vessel, which of them hold grains."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import own_meshes
 import pytest
@@ -11,12 +9,11 @@ from coupling.openfoam import patches
 from coupling.openfoam.poly_mesh import PolyMesh
 from coupling.openfoam.programs import install
 from coupling.openfoam.programs import run as programs
+from sdph.case.boundary import Boundary
 from sdph.engine.walls import facets
 from sdph.schema import CaseError
 
-WALL, SLIP, OUTLET, INLET = (
-    SimpleNamespace(kind=kind) for kind in ("wall", "slip_wall", "pressure_outlet", "velocity_inlet")
-)
+WALL, SLIP, OUTLET, INLET = (Boundary(kind=kind) for kind in ("wall", "slip_wall", "pressure_outlet", "velocity_inlet"))
 
 
 def tetrahedra(tmp_path, **boundaries):
@@ -40,6 +37,7 @@ def test_kinds_of_the_case_decide_then_types_of_the_mesh(tmp_path):
     assert not tetrahedra(tmp_path / "b", all=INLET).open.any()
     assert tetrahedra(tmp_path / "c", all=OUTLET).open.all()
     assert not len(tetrahedra(tmp_path / "d").corners)  # its type is patch
+    assert tetrahedra(tmp_path / "e", all=Boundary(kind="wall", catches=True)).open.all()
 
 
 def test_what_is_kept_is_read_again(tmp_path):

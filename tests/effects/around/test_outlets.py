@@ -7,6 +7,7 @@ from test_inflow import SLOT, case, recorded
 
 from sdph.effects.around import outflow
 from sdph.engine.state import GRAIN
+from sdph.schema import CaseError
 
 LOW = SLOT | {"speed_m_s": 8.0, "centre_m": [0.0, 0.4], "diameter_mm": 1.0}  # both from the left to the right
 HIGH = LOW | {"centre_m": [0.0, 0.85], "diameter_mm": 2.0}
@@ -70,3 +71,54 @@ def test_an_outlet_that_is_all_that_is_left_over_lets_grains_go():
             place = [np.array([0.5]), np.array([0.5]), np.zeros(1)]
             place[across][:] = 1.2 if axis == 0 else -0.2
             assert outflow._open(box, side, across, place[:2])[0] == (free and side == "right")
+
+
+def plate(catches, **more):
+    """A stream down on a plate with an outlet beside it, between walls."""
+    down = LOW | {"centre_m": [0.4, 0.5], "direction": [0.0, -1.0], "speed_m_s": 5.0, "diameter_mm": 1.0}
+    boundaries = {
+        "plate": {"kind": "wall", "side": "bottom", "span_m": [0.0, 0.8], "catches": catches},
+        "drain": OUTLET | {"side": "bottom", "span_m": [0.8, 1.0]},
+        "walls": {"kind": "wall"},
+    }
+    return case(down, boundaries=boundaries, effects=["inflow", "outflow", "granular_pressure", "walls"], **more)
+
+
+@pytest.mark.parametrize("catches", [True, False])
+def test_a_wall_that_catches_takes_what_reaches_it(tmp_path, catches):
+    done = simulation(plate(catches), tmp_path, cells=(4, 4))
+    while done.time < 0.2:
+        done.window()
+    gone, told = recorded(done, tmp_path), done.outlet.summary()
+    inside = done.state.kind == GRAIN
+    came, kept = done.ledger.sums["injected_kg"], done.state.mass[inside].sum()
+    assert came == pytest.approx(kept + done.ledger.sums["left_kg"], rel=1e-12)
+    if not catches:
+        assert not len(gone["time_s"]) and kept == pytest.approx(came, rel=1e-12)
+        return
+    assert set(gone["outlet"]) == {"plate"} and done.ledger.sums["left_kg"] > 0.3 * came
+    assert (
+        (gone["y_m"] < 0.0).all() and (np.abs(gone["x_m"] - 0.4) < 0.2).all() and (gone["velocity_y_m_s"] < 0.0).all()
+    )
+    assert "outflow_plate_kg" not in told  # all left by one
+
+
+def test_what_leaves_by_each_of_several_is_told_in_kilograms(tmp_path):
+    done = run(tmp_path, [0.0, 0.6])
+    gone, told = recorded(done, tmp_path), done.outlet.summary()
+    for name in ("chimney", "right_side"):
+        assert told[f"outflow_{name}_kg"] == pytest.approx(gone["mass_kg"][gone["outlet"] == name].sum(), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("kind", "effects"),
+    [
+        ("wall", ["inflow", "outflow"]),
+        ("wall", ["inflow", "walls"]),
+        ("pressure_outlet", ["inflow", "outflow", "walls"]),
+    ],
+)
+def test_only_a_wall_with_its_effects_catches(kind, effects):
+    rest = {"pressure_Pa": 0.0} if kind == "pressure_outlet" else {}
+    with pytest.raises(CaseError, match="catches is of a wall"):
+        case(LOW, boundaries={"plate": {"kind": kind, "side": "bottom", "catches": True, **rest}}, effects=effects)
