@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from sdph.case.boundary import Boundary
 from sdph.effects.around import outflow
 from sdph.schema import CaseError
 
@@ -13,7 +14,7 @@ def told(monkeypatch, number, source):
     """The line for `number` grains that left through the top of a mesh whose outlet is `lid`."""
     monkeypatch.setattr(outflow, "through", lambda case, state: np.full(number, outflow.exits(case).index("top_side")))
     case = SimpleNamespace(
-        boundaries={"lid": SimpleNamespace(kind="pressure_outlet", side="")},
+        boundaries={"lid": Boundary(kind="pressure_outlet")},
         parameters={"walls": SimpleNamespace(mesh="case", source=source)},
         effects=("walls",),
         dimensions=2,
