@@ -24,6 +24,14 @@ def added(matrix, sums, share, dx, dy, dz, du, dv, dw):
 
 
 @inlined
+def joined(matrix, other):
+    """Sum of two matrices."""
+    xx, yy, zz, xy, yz, zx = matrix
+    a, b, c, d, e, f = other
+    return xx + a, yy + b, zz + c, xy + d, yz + e, zx + f
+
+
+@inlined
 def in_plane(matrix, flat):
     """The matrix; in two dimensions (`flat`), where nothing lies along z, with 1 there."""
     xx, yy, zz, xy, yz, zx = matrix

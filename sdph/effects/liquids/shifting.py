@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from sdph.effects.around import tank
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import kernels as smoothing
 from sdph.laws.compiled import serial
@@ -18,6 +19,7 @@ CROWDING, POWER_OF = 0.2, 4  # R and n of the term that separates pairs, Monagha
 INTERIOR = 0.75  # of the smallest eigenvalue of the renormalisation matrix, Sun et al. 2017
 # of the answer, of vortices whose particles line up: all of it in taylor_green, 0.012 in square_patch; our choice
 DISORDER = 0.3
+FULL = 0.9  # share of its room that two phases fill, from which on they leave no free surface; our choice
 DISORDER_OF_TWO = 0.03  # the same between two phases: 0.023 in bubble_rise, 0.012 in dam_break_gas; our choice
 SPRAY = 0.4  # the same, Sun et al. 2017: below it a particle is not shifted
 
@@ -58,6 +60,12 @@ def kernel(case) -> ShiftingP:
     the dt of the sound limit and p_b = strength rho c^2.
     """
     own, h = case.parameters["shifting"], case.smoothing_length
+    if case.gas_phase is not None and (share := filled(case)) < FULL:
+        given = f"pools fill {100.0 * share:.0f} % of the {'tank' if 'tank' in case.effects else 'domain'}"
+        raise CaseError(
+            f"shifting of two phases is for phases that fill their room, and {given}: the empty part would draw them "
+            "up; leave shifting out of effects, or give the rest to a pool"
+        )
     liquid = float(own.phases == "both")
     if not liquid and case.gas_phase is None:
         given = f"shifting.phases = {own.phases!r}, but the case has no [gas_phase]"
@@ -82,6 +90,22 @@ def kernel(case) -> ShiftingP:
     )
 
 
+def filled(case) -> float:
+    """Share of the tank, or of the domain, that pools of both phases fill, at most 1; what overlaps counts twice."""
+    d, given = case.dimensions, case.domain.size
+    room = float(tank.shape_of(case).volume) if "tank" in case.effects else math.prod(given)
+    round_ = math.pi * (4.0 / 3.0 if d == 3 else 1.0)
+    deepest, total = 0.0, 0.0
+    for pool in case.pools.values():
+        if pool.shape == "tank":
+            deepest = max(deepest, pool.fill)
+        elif pool.shape == "box":
+            total += math.prod(b - a for a, b in zip(pool.lower, pool.upper))
+        else:
+            total += round_ * (pool.radius**d - (pool.inner_radius or 0.0) ** d)
+    return min(1.0, deepest + total / room)
+
+
 @serial
 def weight(p, value):
     """1 + R (W/W(dx))^n; value = W_ij."""
@@ -101,9 +125,10 @@ def sign(p, pressure, least):
 
 def call(scales) -> Judgement:
     """Particles of a flow that turns over line up and part; gravity presses those of one phase together again, and
-    along a channel they stay in line."""
+    along a channel they stay in line. Two phases that leave room have a free surface, which shifting does not see."""
     two = scales.case.gas_phase is not None
-    strain = 0.0 if not two and (any(scales.pull) or scales.shaken) else scales.turns
+    held = filled(scales.case) < FULL if two else any(scales.pull) or scales.shaken
+    strain = 0.0 if held else scales.turns
     error = (DISORDER_OF_TWO if two else DISORDER) * -math.expm1(-strain)
     return Judgement("U t/L, unless gravity holds", strain, 1.0, "Sun et al. 2017, CMAME 315, 25", error)
 

@@ -79,7 +79,7 @@ class LiquidStepper:
         self.summed = case.gas_phase is not None and case.gas_phase.density_by == "summation"
         self.lattice = kernels.lattice_factor(case.liquid.kernel, d, case.resolution.smoothing_ratio)
         self.limit, self.steps, self.time, self.steps_before = "", 0, 0.0, 0
-        self.shifted, self.eased = np.zeros(3), 0.0  # momentum [kg m/s] that shifting gave, energy [J] that it took
+        self.shifted, self.eased = np.zeros(3), np.zeros(2)  # what shifting gave [kg m/s], and `shift.displace` told
         self.tightening = np.zeros((0, 3))  # acceleration by surface tension [m/s2]
         self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
         self.aim(0.0)
@@ -293,8 +293,8 @@ class LiquidStepper:
     def _shift(self, dt: float) -> None:
         s, before = self.state, np.array(motion.momentum(self.state, self.active))
         eased = shift.displace(
-            self.p["shifting"], self.fluids, s, self.active, self.shift, self.gradient, self.twist, self.compliance, dt,
-            s.x, s.y, s.z, s.u, s.v, s.w, s.density,
+            self.p["shifting"], self.fluids, s, self.active, self.shift, self.gradient, self.twist, self.compliance,
+            self.p["gravity"], dt, s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
-        given = self.world.sum(np.array([*(motion.momentum(s, self.active) - before), eased]))
-        self.shifted, self.eased = self.shifted + given[:3], self.eased + float(given[3])
+        given = self.world.sum(np.array([*(motion.momentum(s, self.active) - before), *eased]))
+        self.shifted, self.eased = self.shifted + given[:3], self.eased + given[3:]

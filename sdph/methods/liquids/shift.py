@@ -6,13 +6,14 @@ import math
 
 from numba import prange
 
+from sdph.effects.around import gravity
 from sdph.effects.liquids import shifting, xsph
 from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart, faster
-from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, divided, in_plane
+from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, divided, in_plane, joined
 from sdph.engine.rows import entry, length
-from sdph.engine.state import GAS
-from sdph.laws.compiled import fast_parallel, parallel
+from sdph.engine.state import GAS, WALL
+from sdph.laws.compiled import fast_parallel, parallel, serial
 from sdph.laws.matrices import smallest
 from sdph.methods.liquids import phases
 from sdph.methods.liquids.equations import pressure_at
@@ -22,13 +23,14 @@ from sdph.methods.liquids.equations import pressure_at
 def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, enclosure, shift, twist):
     """Survey how neighbours lie around each particle, and how fast they go.
 
-    enclosure (N,), smallest eigenvalue of the renormalisation matrix (1 among two phases: they leave no free surface);
+    enclosure (N,), smallest eigenvalue of the renormalisation matrix, walls counted: a liquid has no surface there (1
+    among two phases: they leave no free surface);
     shift (N, 3), sum V_j (1 + R (W/W0)^4) grad W [1/m]; twist (N, 9), corrected gradient dv_a/dx_b [1/s], a slowest.
     """
     for n in prange(len(active)):
         i = active[n]
         cx = cy = cz = 0.0
-        matrix, sums = NO_MATRIX, NO_SUMS
+        matrix, walled, sums = NO_MATRIX, NO_MATRIX, NO_SUMS
         for k in range(length(rows, i)):
             j = entry(rows, i, k)
             dx, dy, dz = apart(s, box, i, j)
@@ -37,12 +39,14 @@ def surround(kernel, s, rows, box, active, shifting_p, phases_p, volume, enclosu
             slope = smoothing.slope(kernel, r)
             share = max(volume[j], 0.0) * slope * phases.like(phases_p, s.kind[i], s.kind[j])
             matrix, sums = added(matrix, sums, share, dx, dy, dz, du, dv, dw)
+            if volume[j] < 0.0:
+                walled, _ = added(walled, NO_SUMS, -volume[j] * slope, dx, dy, dz, 0.0, 0.0, 0.0)
             crowd = abs(volume[j]) * slope * shifting.weight(shifting_p, smoothing.value(kernel, r))
             cx += crowd * dx
             cy += crowd * dy
             cz += crowd * dz
         matrix = in_plane(matrix, len(s.z) == 0)
-        enclosure[i] = 1.0 if len(phases_p) else smallest(*matrix)
+        enclosure[i] = 1.0 if len(phases_p) else smallest(*joined(matrix, walled))
         shift[i, 0], shift[i, 1], shift[i, 2] = cx, cy, cz
         found = divided(matrix, sums)
         twist[i, 0], twist[i, 1], twist[i, 2] = found[0], found[1], found[2]
@@ -75,17 +79,20 @@ def mingle(kernel, s, rows, box, active, xsph_p, phases_p, volume, extra_u, extr
 
 @fast_parallel
 def along_surface(kernel, s, rows, box, active, volume, enclosure, shift):
-    """Takes out of the shift (N, 3) of particles at a surface what leads through it; spray is not shifted at all.
+    """Takes out of the shift (N, 3) of particles that see a surface what leads through it; spray is not shifted at all.
 
-    The normal is the gradient of the smallest eigenvalue, `enclosure` (N,): Sun et al. 2017, CMAME 315, 25, Eq. 10, 12.
+    The normal is the gradient of the smallest eigenvalue, `enclosure` (N,), among the liquid: Sun et al. 2017, CMAME
+    315, 25, Eq. 10, 12. All within a kernel of a particle at the surface see it: what is missing there draws them too.
     """
     for n in prange(len(active)):
         i = active[n]
-        if enclosure[i] > shifting.INTERIOR:
+        if enclosure[i] > shifting.INTERIOR and not sees_surface(kernel, s, rows, box, i, volume, enclosure):
             continue
         nx = ny = nz = 0.0
         for k in range(rows.number[i]):
             j = entry(rows, i, k)
+            if s.kind[j] == WALL:
+                continue
             dx, dy, dz = apart(s, box, i, j)
             share = (
                 max(volume[j], 0.0)
@@ -103,15 +110,28 @@ def along_surface(kernel, s, rows, box, active, volume, enclosure, shift):
         shift[i, 2] = kept * (shift[i, 2] - through * nz)
 
 
+@serial
+def sees_surface(kernel, s, rows, box, i, volume, enclosure):
+    """True where a particle at the surface is within the kernel of particle i."""
+    for k in range(rows.number[i]):
+        j = entry(rows, i, k)
+        if enclosure[j] <= shifting.INTERIOR and s.kind[j] != WALL and volume[j] > 0.0:
+            dx, dy, dz = apart(s, box, i, j)
+            if smoothing.value(kernel, math.sqrt(dx * dx + dy * dy + dz * dz)) > 0.0:
+                return True
+    return False
+
+
 @parallel
-def displace(p, fluids, s, active, shift, gradient, twist, compliance, dt, x, y, z, u, v, w, density):
+def displace(p, fluids, s, active, shift, gradient, twist, compliance, gravity_p, dt, x, y, z, u, v, w, density):
     """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow.
 
     Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance
-    (K,) is d rho/dp [s2/m2] by kind. Returns the energy [J] of motion and compression that this takes; x ... density
-    are those of s once more, as outputs.
+    (K,) is d rho/dp [s2/m2] by kind. Returns the energy [J] of motion and compression that this
+    takes, and that in gravity which it gives; x ... density are those of s once more, as outputs.
     """
-    lost = 0.0
+    lost = lifted = 0.0
+    gx, gy, gz = gravity.acceleration(gravity_p)
     for n in prange(len(active)):
         i, kind = active[n], s.kind[active[n]]
         dx, dy, dz = -p.strength * shift[i, 0], -p.strength * shift[i, 1], -p.strength * shift[i, 2]
@@ -135,7 +155,8 @@ def displace(p, fluids, s, active, shift, gradient, twist, compliance, dt, x, y,
             gained += (w[i] + 0.5 * dw) * dw
             w[i] += dw
         lost -= s.mass[i] * gained
-    return lost
+        lifted -= s.mass[i] * (gx * dx + gy * dy + gz * dz)
+    return lost, lifted
 
 
 def prepare(stepper, around) -> None:

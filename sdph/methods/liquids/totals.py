@@ -7,8 +7,8 @@ is kinetic and elastic (of compression), beside bodies also that of the springs 
 the pressure of walls and of nozzles, surface tension and contact work on it; what comes in brings some, the drain and
 open sides take their share. Dissipation is the sum of its causes (LOSSES), each taken where its force acts; what
 explicit steps and the continuity equation make of both is `numerical_work_J`. A scheme that makes energy shows in
-`energy_made_J`. Potential energy is that in gravity, which is the same everywhere; the work of gravity is beside it, as
-shifting lifts too.
+`energy_made_J`, which counts what shifting lifts (`shifting_lift_J`). Potential energy is that in gravity, which is the
+same everywhere; the work of gravity is beside it.
 
 What surface tension gives, the surface loses: its energy is `surface_energy_J` (sdph.methods.liquids.surface), and work
 that no surface was lost for is `numerical_tension_J`. Motion, compression and surface together grow by all other works
@@ -43,7 +43,7 @@ WORKS = (
 )  # fmt: skip
 LOSSES = (*CAUSES, "tension_control_J", "held_off_J", "shifting_J")
 PASSED = ("drained_kg", "drained_J", "injected_kg", "injected_J", "left_kg", "left_J", "boiled_kg", "boiled_J")
-AMOUNTS = (*PASSED, *WORKS, *LOSSES, "dissipated_J", "numerical_work_J", "numerical_tension_J")
+AMOUNTS = (*PASSED, *WORKS, *LOSSES, "shifting_lift_J", "dissipated_J", "numerical_work_J", "numerical_tension_J")
 
 
 class LiquidLedger(Sums):
@@ -81,7 +81,8 @@ class LiquidLedger(Sums):
         self.scale["J"] += sum(abs(amounts[name]) for name in WORKS)
         self.scale["tension_J"] += abs(amounts["work_of_surface_tension_J"])
         self._write(stepper, dt, now, impulses, amounts)
-        self.made = max(self.made, _energy(now) - _energy(self.first) - self._given(self.sums))
+        risen = _energy(now) - _energy(self.first) + self.sums["shifting_lift_J"]
+        self.made = max(self.made, risen - self._given(self.sums))
 
     def _given(self, amounts: dict) -> float:
         """Energy [J] that came from outside."""

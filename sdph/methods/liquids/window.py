@@ -62,7 +62,8 @@ class Tally:
         amounts |= {"work_of_scaling_J": self.scaled[3]}
         amounts |= {"work_of_gravity_J": sums[account.GRAVITY], "work_of_frame_J": sums[account.FRAME]}
         amounts |= {"work_of_walls_J": sums[account.BY_WALLS], "work_of_surface_tension_J": sums[account.BY_TENSION]}
-        amounts |= {"held_off_J": -sums[account.HELD_OFF], "shifting_J": self.stepper.eased - self.eased}
+        amounts["held_off_J"] = -sums[account.HELD_OFF]
+        amounts |= dict(zip(("shifting_J", "shifting_lift_J"), self.stepper.eased - self.eased))
         amounts |= {"tension_control_J": sums[account.BY_CONTROL]} | dict(zip(CAUSES, sums[account.LOST]))
         return dict(zip(IMPULSES, impulses)), {name: float(value) for name, value in amounts.items()}
 

@@ -180,8 +180,8 @@ def recorded(done, folder):
 def test_a_record_of_nothing_names_its_columns(tmp_path):
     done = simulation(case(SLOT), tmp_path, cells=(4, 4))
     assert list(recorded(done, tmp_path)) == [
-        "time_s", "particle", "outlet", "nozzle", "residence_s", "x_m", "y_m", "velocity_x_m_s", "velocity_y_m_s", "mass_kg",
-        "diameter_m", "diameter_std_m", "count",
+        "time_s", "particle", "outlet", "nozzle", "residence_s", "x_m", "y_m", "velocity_x_m_s", "velocity_y_m_s",
+        "mass_kg", "diameter_m", "diameter_std_m", "count",
     ]  # fmt: skip
     assert math.isnan(done.outlet.summary()["outflow_D10_m"])
 
