@@ -38,8 +38,30 @@ def parts(surface) -> list[Part]:
     return [Part(*row) for row in zip(middles, map(len, own), within.tolist(), (np.array(outwards) == within).tolist())]
 
 
+def refuse_mixed(corners: np.ndarray, where: str) -> None:
+    """CaseError where facets (F, d, d) [m] of the surface `where` that share a side, and no other has it, look to
+    different sides of the surface: they go along that side the same way. Of lines the side is a point."""
+    point, d = facets.numbered(corners), corners.shape[2]
+    own, after = point.ravel(), np.roll(point, -1, axis=1).ravel()
+    if d == 2:
+        side, way, place = own, np.tile([1, -1], len(point)), corners.reshape(-1, 2)
+    else:
+        way, place = np.where(own < after, 1, -1), 0.5 * (corners + np.roll(corners, -1, axis=1)).reshape(-1, 3)
+        side = np.minimum(own, after) * (point.max() + 1) + np.maximum(own, after)
+    _, first, number, times = np.unique(side, return_index=True, return_inverse=True, return_counts=True)
+    mixed = np.flatnonzero((times == 2) & (np.bincount(number, way) != 0))
+    if len(mixed):
+        middle = ", ".join(f"{x:.4g}" for x in place[first[mixed[0]]])
+        raise CaseError(
+            f"{where}: normals of facets beside each other look to different sides of the surface, at {len(mixed)} "
+            f"{'points' if d == 2 else 'edges'}, the first about ({middle}) m; turn them all to one side (a mesh "
+            "program calls that coherent or consistent orientation)"
+        )
+
+
 def refuse_turned(surface, where: str) -> None:
-    """CaseError where a part of the surface `where` is turned the wrong way."""
+    """CaseError where a part of the surface `where` is turned the wrong way, or some of its facets."""
+    refuse_mixed(surface.points[surface.faces.reshape(-1, 4)[:, 1:]], where)
     found = sorted(parts(surface), key=lambda part: part.within)
     for part in found:
         place = ", ".join(f"{x:.4g}" for x in part.middle)

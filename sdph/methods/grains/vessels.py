@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from sdph.engine.walls import facets
+from sdph.engine.walls import facets, nested
 from sdph.schema import CaseError
 
 RIMS = 3  # that are named; our choice
@@ -18,6 +18,7 @@ def checked(case) -> list[str]:
     if own is None or not own.mesh or own.source == "gas":
         return []
     key, corners = f"walls.mesh = {own.mesh!r}", facets.read(own.mesh, case.dimensions, own.mesh_scale)
+    nested.refuse_mixed(corners, key)
     rims = facets.Surface(corners).rims()
     filling, parts = [name for name, region in case.particles.items() if region.shape == "walls"], facets.parts(corners)
     inside_out = filling if facets.enclosed(corners) < 0.0 else []

@@ -89,3 +89,29 @@ def test_parts_are_told_in_any_order(tmp_path):
 def balls_only(path, *given):
     balls(path, *given)
     return path
+
+
+@pytest.mark.parametrize(("turned", "fine"), [([], True), ([0], False), ([3, 4, 5], False)])
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_facets_that_look_to_different_sides_are_refused(turned, fine, dimensions):
+    """A circle of lines, or a ball, of which some facets are turned round."""
+    if dimensions == 2:
+        ring = np.array([[np.cos(a), np.sin(a)] for a in np.linspace(0.0, 2.0 * np.pi, 13)[:-1]])
+        corners = np.stack([ring, np.roll(ring, -1, axis=0)], axis=1)
+    else:
+        ball = pyvista.Icosphere(radius=1.0, nsub=1)
+        corners = np.asarray(ball.points, float)[ball.faces.reshape(-1, 4)[:, 1:]]
+    corners[turned] = corners[turned, ::-1]
+    if fine:
+        nested.refuse_mixed(corners, "tank.mesh")
+    else:
+        with pytest.raises(CaseError, match="tank.mesh: normals of facets beside each other look to different sides"):
+            nested.refuse_mixed(corners, "tank.mesh")
+
+
+def test_faces_of_a_plate_and_branches_of_sheets_are_not_mixed():
+    """Both faces of a sheet of no thickness share all sides; three sheets that meet have no common way."""
+    square = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0], [0, 1, 0]]], float)
+    nested.refuse_mixed(np.concatenate([square, square[:, ::-1]]), "walls.mesh")
+    wing = np.array([[[1, 0, 0], [0, 1, 0], [0, 0, 1]]], float)
+    nested.refuse_mixed(np.concatenate([square, wing]), "walls.mesh")

@@ -96,8 +96,8 @@ def test_a_wall_is_no_surface():
 
 
 def test_shifting_leaves_the_level_of_a_pool_where_it_is(tmp_path):
-    """0.3 s at rest: what is lifted is below a thousandth of the energy in gravity, 9.42 J per metre (3 % where rows below the surface
-    were lifted, and corners at walls)."""
+    """0.3 s at rest: what is lifted is below a thousandth of the energy in gravity, 9.42 J per metre (3 % where rows
+    below the surface were lifted, and corners at walls)."""
     own = driver.simulation_of(resting(), None, tmp_path / "ledger.csv")
     own.start()
     first = own.ledger.last["potential_energy_J"]
