@@ -15,7 +15,7 @@ from sdph.methods.liquids import bodies, filling
 from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
 from sdph.schema import CaseError
-from sdph.study.explain import estimate, feed, prices
+from sdph.study.explain import estimate, feed, prices, tanks
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
 SAME = 1e-6  # of a spacing: round-off of corners
@@ -147,7 +147,7 @@ def warnings(s) -> list[str]:
             "a tank without an outlet pipe gives up its lowest particles, wherever on its floor they are: pressures "
             f"and loads meanwhile are not those of a drain; {PIPES.get((around.shape, s.case.dimensions), PIPE)}"
         )
-    return unsafe
+    return unsafe + tanks.warnings(s.case)
 
 
 def _ends_in_pipe(case, around) -> bool:
