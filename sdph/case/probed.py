@@ -8,12 +8,12 @@ from sdph.schema import CaseError
 UNITS = {  # fields -> unit at the end of the column; "" of a number without one
     "pressure": "Pa", "velocity": "m_s", "temperature": "K", "density": "kg_m3", "alpha_p": "",
     "vapour_mass_fraction": "", "theta": "m2_s2", "diameter": "m", "displacement": "m", "equivalent_stress": "Pa",
-    "plastic_strain": "", "damage": "",
+    "plastic_strain": "", "damage": "", "level": "m",
 }  # fmt: skip
 VECTORS = ("velocity", "displacement")
 OF_GAS = ("velocity", "pressure", "temperature", "density", "alpha_p")
 OF_GRAINS = ("velocity", "density", "alpha_p", "temperature", "theta", "diameter")
-OF_LIQUID = ("velocity", "pressure", "density")
+OF_LIQUID = ("velocity", "pressure", "density", "level")
 OF_SOLID = (*VECTORS, "equivalent_stress", "pressure", "density", "plastic_strain", "damage")
 
 

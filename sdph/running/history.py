@@ -13,6 +13,7 @@ from sdph.engine.geometry import OPEN, box_of, nearest_image
 from sdph.engine.world import ALONE
 from sdph.laws.kernels import SUPPORT
 from sdph.methods.solids import history as solids
+from sdph.running import level
 
 
 def row(simulation) -> dict[str, float]:
@@ -54,14 +55,18 @@ def of_liquid(case, cloud, world=ALONE) -> dict[str, float]:
     columns = {}
     for name, own in case.probes.items():
         there = cloud.n_points > 0  # pyvista knows no empty arrays
+        chosen = probed.fields(case, own)["particles"]
         arrays = {
             field: np.asarray(cloud[field]) if there else np.zeros((0, 3) if field == "velocity" else 0)
-            for field in probed.fields(case, own)["particles"]
+            for field in chosen
+            if field != level.FIELD
         }
         places, mass = (
             (np.asarray(cloud.points), np.asarray(cloud["mass"])) if there else (np.zeros((0, 3)), np.zeros(0))
         )
         found = near(case, places, mass, arrays, _place(own.at), world)
+        if level.FIELD in chosen:
+            found[probed.column("", level.FIELD)] = level.of(case, cloud, own.at, world)
         columns |= {f"{name}_{key}": value for key, value in found.items()}
     return columns
 

@@ -8,13 +8,14 @@ from sdph.engine import state as particles
 from sdph.engine.kept import ROW, Many, Unfit
 from sdph.engine.table import Table
 from sdph.running import averages, metrics
+from sdph.running.extremes import Extremes
 from sdph.running.fields import Fields
 
 
 class Outputs:
     """All that a run writes as it goes: history by row, fields and metrics by output interval."""
 
-    KEPT = ("fields", "history", "metrics", "first", "last", "rows")  # see sdph.engine.kept
+    KEPT = ("fields", "history", "metrics", "first", "last", "rows", "extremes")  # see sdph.engine.kept
     FORMS = {"first": ROW, "last": ROW, "rows": Many(ROW)}
 
     def __init__(self, folder: Path, simulation, world):
@@ -22,7 +23,7 @@ class Outputs:
         self.simulation, self.fields, self.folder = simulation, Fields(folder, world), folder
         tables = (folder / name if world.chief else None for name in ("history.csv", "metrics.csv"))
         self.history, self.metrics = (Table(file) for file in tables)
-        self.first, self.last, self.rows = {}, {}, []
+        self.first, self.last, self.rows, self.extremes = {}, {}, [], Extremes(simulation.case)
 
     def admit(self, kept: dict) -> None:
         """Unfit where a kept row is not of the columns of its table, or holds what is no number."""
@@ -36,16 +37,20 @@ class Outputs:
         """The rows and fields of the start, and the walls, which stay as they are."""
         self.fields.write_walls(self.simulation.walls())
         self.first = self.simulation.row()
-        self.history.write(self.first)
+        self._keep(self.first)
         self._write()
 
     def window(self) -> None:
         """Write what is due after a window."""
         if self.simulation.at_row:
             self.last = self.simulation.row()
-            self.history.write(self.last)
+            self._keep(self.last)
         if self.simulation.clock.writes(self.simulation.time):
             self._write()
+
+    def _keep(self, row: dict) -> None:
+        self.history.write(row)
+        self.extremes.hear(row)
 
     def close(self) -> None:
         for table in self._tables():
@@ -68,7 +73,7 @@ class Outputs:
         with now.whole():
             case, count = now.case, particles.count(now.state)
         found = {"title": case.title, "time_s": now.time, "particles": count, "windows": now.windows}
-        found |= now.summary(self) | metrics.summary(case, self.rows) | now.ledger.summary()
+        found |= now.summary(self) | self.extremes.summary() | metrics.summary(case, self.rows) | now.ledger.summary()
         found |= {f"wall_{part}_s": spent for part, spent in now.wall.items()}
         parts = {part: spent for part, spent in now.wall.items() if part != "compiling"}
         found |= {f"{part}_ms_per_window": 1e3 * spent / now.windows for part, spent in parts.items()}
