@@ -17,6 +17,7 @@ LONG = 1.15  # of their distance: arrows as long as that stand for the fastest
 EDGE = "#a0a0a0c0"  # colour of the line around particles in a gas
 PALE = 0.3  # share of the paper in the colour of a gas around grains that lie together; our choice
 WIDE = 3.0  # spacings: lone particles and gaps that are smaller have no line around them; our choice
+PALER = " (gas phase: paler than the bar)"
 FASTEST = 0.98  # quantile of the speeds that is drawn so long: a few fast ones would shrink all others; our choice
 
 
@@ -43,7 +44,7 @@ def draw(shot: Shot, look: Look, scales: dict[str, Scale], last: float, fine: in
         _outline(sheet, shot, grid)
     if look.vectors:
         _arrows(sheet, shot)
-    sheet.head(shot.title, shot.time, last)
+    sheet.head(shot.title + PALER * bool(light.any()), shot.time, last)
     sheet.rule(low, high, ("xyz"[right], "xyz"[up]))
     for place, (name, own) in enumerate(scales.items()):
         sheet.bar(own, shot.words(name), place)
