@@ -46,6 +46,10 @@ class Stepped:
         """Context in which the first process holds all particles; True there."""
         return contextlib.nullcontext(True)
 
+    def news(self) -> list[str]:
+        """Tell what befell it since it was last asked, for the user."""
+        return []
+
     def begin(self) -> None:
         self.stepper.guard.begin(self)
         self.begun = self.time

@@ -98,6 +98,7 @@ class Alone:
         if self.at_row:
             self.method.new_row()
         compiling.timed(self.wall, "particles", self._advance)
+        self.notices += [f"t = {self.time:.4g} s: {line}" for line in self.method.news()]
         self.limiters.hear(self.method.held())
         self.windows += 1
         self.clock.limit = self.method.limit

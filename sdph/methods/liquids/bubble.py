@@ -6,8 +6,9 @@ the start is taken off for good, so that the first void is that of the case. In 
 (sdph.methods.liquids.pores), from the area on that it has then.
 Pressure: -2 p_b is added to p_i + p_j of all pairs of the liquid nearer to the void than to the rim; in a shell a share
 of it, which falls to 0 within two reaches of the kernel. The sum of V_j grad W vanishes inside, which leaves p_b on the
-void's face alone. What is given back is not equal and opposite pair by pair: `impulse_of_bubble_*` says what the sum
-over a closed void misses.
+void's face alone. What is given back is not equal and opposite pair by pair: what the sum over a closed void misses is
+taken back (sdph.methods.liquids.closed). Of a void with a way out it is the thrust of what leaves, in
+`impulse_of_bubble_*`.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from sdph.engine.kept import Maybe
 from sdph.engine.rows import entry, length
 from sdph.laws import cavities
 from sdph.laws.compiled import fast_parallel
-from sdph.methods.liquids import pores, totals
+from sdph.methods.liquids import closed, pores, totals
 from sdph.methods.liquids.content import Content
 
 SAME = 1e-6  # of a radius: round-off
@@ -39,7 +40,8 @@ RAYS = 32  # directions in which the void's face is looked for; our choice
 class Void(Content):
     """A bubble: void [m2], pressure over that around [Pa], mass [kg/m] and temperature [K] of vapour, heat that it got
     and with which it warmed [J/m]; passed (5,): mass, momentum and energy that the liquid gave to it, and mass that it
-    still owes, of this step's warming; vented: mass that went out through a tear. In a shell, where there is one."""
+    still owes, of this step's warming; vented: mass that went out through a tear. In a shell, where there is one.
+    unclosed (2,) and pushed: impulse [N s] that its push was off by while closed, and all its impulses."""
 
     # see sdph.engine.kept
     KEPT = (
@@ -59,6 +61,8 @@ class Void(Content):
         "torn",
         "short",
         "width",
+        "unclosed",
+        "pushed",
     )
     FORMS = {"short": Maybe(0.0)}
 
@@ -74,6 +78,12 @@ class Void(Content):
         self.missed, self.corners = 0.0, 0  # corners of the lining, where there is one
         self.missed = self._measure(state) - first
         self.passed = np.zeros(5)
+        self.unclosed, self.pushed = np.zeros(2), 0.0
+        self.news: list[str] = []  # for the user, until somebody has passed them on
+
+    def revive(self) -> None:
+        """Forget news of the start: they were told before the checkpoint."""
+        self.news.clear()
 
     def _begin(self, case, state) -> float:
         """Fill what there is of bubbles at the start; their void [m2]."""
@@ -81,10 +91,21 @@ class Void(Content):
         self.fill(self.p, first)
         return first
 
-    def press(self, stepper) -> None:
-        """Add to the accelerations of a stepper; what was added is its `inflating` (N, 3) [m/s2]."""
+    def press(self, stepper, dt: float) -> None:
+        """Add to the accelerations of a stepper, which hold for `dt` [s]; what was added is its `inflating` (N, 3)
+        [m/s2]."""
         self._facing(stepper, self._outside(stepper))
+        if not self.width:
+            self._close_up(stepper, dt)
         stepper.acceleration += stepper.inflating
+
+    def _close_up(self, stepper, dt: float) -> None:
+        """Take from `inflating` what pushes or turns the liquid as a whole, and count it."""
+        own, mass = stepper.active, stepper.state.mass[stepper.active]
+        places = particles.positions(stepper.state)[own, :2]
+        taken, net, whole = closed.close(places, mass[:, None] * stepper.inflating[own, :2])
+        stepper.inflating[own, :2] -= taken / mass[:, None]
+        self.unclosed, self.pushed = self.unclosed + dt * net, self.pushed + dt * whole
 
     def open(self, stepper) -> None:
         """Flood, before a window, what a torn shell still holds, and find its way out."""
@@ -133,8 +154,7 @@ class Void(Content):
     def face(self, stepper) -> np.ndarray:
         """(N,) [1/m] how much of the void's face each particle has; 0 of those within, whose sum V_j grad W is but
         disorder: through that the whole liquid would boil."""
-        facing = np.where(self.near(stepper.state), stepper.facing, 0.0)
-        return np.where(facing * stepper.kernel.h > AT_FACE, facing, 0.0)
+        return faced(stepper, self.near(stepper.state))
 
     def take_up(self, stepper, conductance, dt: float) -> tuple[np.ndarray, np.ndarray]:
         """Heat (N,) [J] of the particles, and mass (N,) [kg] that boils off them, as `soak` has them."""
@@ -193,8 +213,15 @@ class Void(Content):
         return told
 
     def summary(self) -> dict[str, float]:
-        """Add nothing to summary.json: it is all in the last row."""
-        return {}
+        """Impulse by which the push of closed voids was off, over all of that push; the rest is in the last row."""
+        off = float(np.hypot(*self.unclosed))
+        return {"bubble_impulse_rel": off / self.pushed if self.pushed else 0.0}
+
+
+def faced(stepper, near) -> np.ndarray:
+    """(N,) [1/m] how much of a face particles have, of those that are `near` (N,) one."""
+    facing = np.where(near, stepper.facing, 0.0)
+    return np.where(facing * stepper.kernel.h > AT_FACE, facing, 0.0)
 
 
 def share_of(depth, reach: float) -> np.ndarray:

@@ -4,7 +4,8 @@ All voids together are what one bubble's is (sdph.methods.liquids.bubble). Each 
 a grid (sdph.methods.liquids.rooms), whose radius is corrected by what the grid missed at the start. Two in one room
 merge: masses and heat add up. One whose room is gone, or that has shrunk to less than a particle, is closed: its vapour
 condenses on the liquid there, which gets mass and latent heat. (Particles cannot tell so small a void from a gap of
-theirs: none would ever fill it.) The pressure at a particle is that of the bubble whose face is nearest.
+theirs: none would ever fill it.) The pressure at a particle is that of the bubble whose room is nearest: rooms have any
+shape, and what drifts in one, as the shreds of a film that tore, hides no part of its face.
 """
 
 from __future__ import annotations
@@ -18,10 +19,10 @@ from sdph.engine import state as particles
 from sdph.engine.kept import Maybe
 from sdph.laws import cavities
 from sdph.methods.liquids import pores, rooms
-from sdph.methods.liquids.bubble import Void, behind, share_of
+from sdph.methods.liquids.bubble import Void, faced, share_of
 from sdph.methods.liquids.content import Content
 
-FACE_WITHIN = 4.0  # spacings behind the nearest particle of a ray, in which a face may lie; our choice
+FACE_WITHIN = 4.0  # spacings behind the outermost row, in which a face may lie; our choice
 ABOUT = 2.0  # spacings about a bubble that is gone, in which its vapour condenses; our choice
 
 
@@ -52,7 +53,11 @@ class Voids(Void):
     """Bubbles; area, mass and so on are those of all that are left, pressure and temperature their means."""
 
     # see sdph.engine.kept
-    KEPT = ("area", "passed", "rim", "missed", "corners", "named", "merged", "closed", "condensed", "torn")
+    KEPT = (
+        "area", "passed", "rim", "missed", "corners", "named", "merged", "closed", "condensed", "torn", "unclosed",
+        "pushed",
+    )  # fmt: skip
+    found = None  # rooms of where the particles are now, when boiling has looked for them
 
     def _begin(self, case, state) -> float:
         self.named = {str(n): Part(self.p, hole) for n, hole in enumerate(effect.holes_of(case), 1)}
@@ -102,12 +107,13 @@ class Voids(Void):
 
     def _outside(self, stepper) -> np.ndarray:
         s, reach = stepper.state, 2.0 * stepper.kernel.h
+        found, self.found = self.found, None
         if not self.torn:
-            self.area = self._whole(s)
-            self._tell_apart(stepper, self._rooms(s))
+            self.area, found = self._whole(s), found or self._rooms(s)
+            self._tell_apart(stepper, found)
         for part in self.left:
             part.swell(part.area, stepper.guard)
-        depth, nearest = self._depths(s)
+        depth, nearest = self._depths(s, found)
         pressure = np.array([part.pressure for part in self.parts])
         return pressure[nearest] * share_of(depth, reach)
 
@@ -156,7 +162,11 @@ class Voids(Void):
             part.first += other.first
         part.area += other.area
         self.merged += 1
+        self._tell_merged(*(self.parts.index(each) + 1 for each in (part, other)))
         other.end()
+
+    def _tell_merged(self, one: int, other: int) -> None:
+        self.news.append(f"bubble {other} has merged into bubble {one}, which goes on with what both held")
 
     def _close(self, stepper, part: Part) -> None:
         """Condense what is left of a bubble on the liquid about it."""
@@ -177,22 +187,34 @@ class Voids(Void):
         near = s.mass[own] * (far <= max(ABOUT * self.spacing, far.min()))
         return near / near.sum()
 
-    def _depths(self, state) -> tuple[np.ndarray, np.ndarray]:
+    def _depths(self, state, found: rooms.Rooms | None = None) -> tuple[np.ndarray, np.ndarray]:
         """(N,) how far [m] particles of liquid lie behind the nearest face of a bubble, infinite of others; number of
-        that bubble."""
+        that bubble. `found` are the rooms, where they are known."""
         depth, wet = np.full((len(self.parts), len(state.x)), np.inf), particles.wet(state)
-        if wet.any():
-            for number, part in enumerate(self.parts):
-                if part.held:
-                    far = part.depth(state) if self.torn else behind(state, part.rim, wet)
-                    depth[number] = np.where(wet, far, np.inf)
+        if wet.any() and self.torn:
+            for part in self.left:
+                depth[self.parts.index(part)] = np.where(wet, part.depth(state), np.inf)
+        elif wet.any() and self.held:
+            self._behind(found or self._rooms(state), particles.positions(state)[wet, :2], wet, depth)
         nearest = depth.argmin(axis=0)
         return depth[nearest, np.arange(len(state.x))], nearest
 
+    def _behind(self, found: rooms.Rooms, places, wet, depth) -> None:
+        """Set depth (parts, N) [m] of the `wet`, at places (W, 2) [m], behind the face of the bubble next to each. One
+        that the grid does not see is round."""
+        held = {number: rooms.of(found, part.rim, part.radius) for number, part in enumerate(self.parts) if part.held}
+        far, room = rooms.behind(found, [own for own in held.values() if own], places)
+        for number, own in held.items():
+            if own:
+                depth[number, wet] = np.where(room == own, far, np.inf)
+            else:
+                part = self.parts[number]
+                depth[number, wet] = np.hypot(*(places - part.rim).T) - part.radius
+
     def _facing_each(self, stepper):
         """Each that is left, and (N,) [1/m] how much of its face each particle has."""
-        facing = self.face(stepper)
-        _, nearest = self._depths(stepper.state)
+        depth, nearest = self._depths(stepper.state, self.found)
+        facing = faced(stepper, depth < FACE_WITHIN * self.spacing)
         return [(part, np.where(nearest == self.parts.index(part), facing, 0.0)) for part in self.left]
 
     def near(self, state) -> np.ndarray:
@@ -202,6 +224,7 @@ class Voids(Void):
     def boil(self, stepper, dt: float) -> None:
         s, own = stepper.state, stepper.active
         self._facing(stepper, np.zeros(len(s.x)))
+        self.found = None if self.torn else self._rooms(s)  # pressing needs them next, of the same places
         for part, facing in self._facing_each(stepper):
             lost = part.evaporate(dt, s.mass[own] * facing[own])
             if lost is not None:
@@ -232,7 +255,7 @@ class Voids(Void):
     def summary(self) -> dict[str, float]:
         told = {f"bubble_{number}_diameter_m": 2.0 * part.radius for number, part in enumerate(self.parts, 1)}
         counts = {"bubbles_left": len(self.left), "bubbles_merged": self.merged, "bubbles_closed": self.closed}
-        return told | counts | {"condensed_at_closure_kg": self.condensed}
+        return super().summary() | told | counts | {"condensed_at_closure_kg": self.condensed}
 
 
 def of(case, p, state, bodies) -> Void:

@@ -111,6 +111,12 @@ class Liquid(Stepped):
             finally:
                 stepper.active = before
 
+    def news(self) -> list[str]:
+        told = list(self.stepper.void.news) if self.stepper.void else []
+        if told:
+            self.stepper.void.news.clear()
+        return told
+
     def row(self) -> dict[str, float]:
         loads = history.loads(self)
         with ashore.ashore(self.stepper):

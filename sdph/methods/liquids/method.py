@@ -232,7 +232,7 @@ class LiquidStepper:
         if p["surface_tension"]:
             interface.tighten(self)
         if self.void:
-            self.void.press(self)
+            self.void.press(self, 2.0 * ahead)
         if self.bodies:
             self.bodies.keep_off(self)
         self.domain.refresh(self.acceleration, self.gradient)

@@ -15,6 +15,7 @@ FINE = 0.5  # spacings: a cell; gel-droplet.md, section 2
 REACH = 1.5
 # of a filled place: below it a cell is empty, a lone missing particle is not; our choice
 EMPTY = 0.5
+ROW = 0.75  # spacings from the outermost row of a lattice to the next empty cell, in the mean
 
 
 class Rooms(NamedTuple):
@@ -26,6 +27,10 @@ class Rooms(NamedTuple):
     empty: np.ndarray
     corner: np.ndarray
     cell: float
+
+    def at(self, points) -> tuple[np.ndarray, np.ndarray]:
+        """Cells in which points (N, 2) [m] are."""
+        return tuple(((points - self.corner) / self.cell).astype(int).T)
 
     def places(self, cells) -> np.ndarray:
         """Places (N, 2) [m] of the middles of cells (2 arrays of indices)."""
@@ -71,7 +76,19 @@ def of(rooms: Rooms, place, radius: float) -> int:
 
 
 def measure(rooms: Rooms, room: int) -> tuple[float, np.ndarray]:
-    """Area [m2] and middle (2,) [m] of a room."""
+    """Area [m2] of a room, and a place (2,) [m] in it: its middle, or the place nearest to that."""
     cells = np.nonzero(rooms.label == room)
-    weight = rooms.empty[cells]
-    return float(weight.sum()) * rooms.cell**2, weight @ rooms.places(cells) / weight.sum()
+    weight, places = rooms.empty[cells], rooms.places(cells)
+    middle = weight @ places / weight.sum()
+    if rooms.label[rooms.at(middle)] != room:
+        middle = places[np.hypot(*(places - middle).T).argmin()]
+    return float(weight.sum()) * rooms.cell**2, middle
+
+
+def behind(rooms: Rooms, held, points) -> tuple[np.ndarray, np.ndarray]:
+    """(N,) how far [m] points (N, 2) [m] lie behind the outermost row about the nearest of the rooms `held`, and (N,)
+    which that is."""
+    far, nearest = scipy.ndimage.distance_transform_edt(~np.isin(rooms.label, held), return_indices=True)
+    cells = rooms.at(points)
+    depth = rooms.cell * (far[cells] - ROW / FINE)
+    return depth, rooms.label[tuple(axis[cells] for axis in nearest)]
