@@ -259,5 +259,7 @@ class Voids(Void):
 
 
 def of(case, p, state, bodies) -> Void:
-    """The bubble of a case, or its bubbles."""
-    return (Voids if len(effect.holes_of(case)) > 1 else Void)(case, p, state, bodies)
+    """The bubble of a case where it is one in the middle of the liquid, or its bubbles, wherever they are."""
+    first, *others = effect.holes_of(case)
+    central = math.dist(first.centre, effect.pool_of(case).centre) <= effect.SAME * first.radius
+    return (Void if central and not others else Voids)(case, p, state, bodies)

@@ -69,6 +69,17 @@ def test_a_void_of_any_shape_pushes_the_droplet_nowhere(shreds):
     assert size == pytest.approx(np.hypot(*pushed(merged(0))[1].T).sum(), rel=0.05)
 
 
+def test_a_lone_bubble_off_the_middle_pushes_the_droplet_nowhere():
+    """Taken to be in the middle its push was 0.36 net, and 0.69 of what it is."""
+    own = cases.to_table(case_of())
+    own["bubble"] |= {"centres_m": [[MIDDLE + 2e-4, MIDDLE]], "radii_m": [LARGE]}
+    run = Alone(cases.from_table(own), None)
+    _, force = pushed(run)
+    void = run.method.stepper.void
+    assert np.hypot(*force.T).sum() == pytest.approx(void.pressure * 2.0 * math.pi * LARGE, rel=0.2)
+    assert void.summary()["bubble_impulse_rel"] < balances.BARS["bubble_impulse_rel"]
+
+
 def test_what_leaves_by_a_way_out_pushes_the_droplet():
     run = merged(4)
     run.method.stepper.void.left[0].width = SPACING
