@@ -225,7 +225,7 @@ def _run_options(parser) -> None:
 
 
 def accuracy(text: str) -> tuple[str, float]:
-    """2%, or of one metric bubble_diameter_m=2%: (metric or "", share)."""
+    """2%, or of one metric front_m=2%: (metric or "", share)."""
     metric, _, found = text.rpartition("=")
     return metric.strip(), share(found.strip())
 

@@ -6,13 +6,13 @@ import pytest
 import sdph
 from sdph.case import read as cases
 from sdph.engine import restart
-from sdph.running import averages, output
+from sdph.running import averages, metrics, output
 
 LENGTH, HEIGHT, WIDTH, SPEED, SHARE, FROM = 0.4, 0.1, 0.04, 5.0, 0.001, 0.1
 GIVEN = {
     "title": "grains that fly with the gas through a duct", "dimensions": 2,
     "effects": ["drag", "gravity", "inflow", "outflow", "walls"],
-    "run": {"end_time_s": 0.2, "output_interval_s": 0.05, "average_from_s": FROM},
+    "run": {"end_time_s": 0.2, "output_interval_s": 0.05, "average_from_s": FROM, "metrics": ["jet"]},
     "domain": {"size_m": [LENGTH, HEIGHT], "gravity_m_s2": [0.0, 0.0]},
     "resolution": {"spacing_mm": 10.0, "cell_mm": 20.0},
     "gas": {"density_kg_m3": 1.2, "viscosity_Pa_s": 1.8e-5, "conductivity_W_m_K": 0.025,
@@ -39,6 +39,23 @@ def duct(tmp_path_factory):
     folder = tmp_path_factory.mktemp("duct")
     case = case_of(folder, GIVEN)
     return case, sdph.run(case, gas="embedded", out=folder / "run"), folder
+
+
+def test_the_summary_has_means_of_metrics_since_then(duct):
+    """The output at that time is the first of them."""
+    _, run, _ = duct
+    rows = run.table("metrics")
+    since = rows[rows["time_s"] > FROM - 1e-9]
+    assert len(since) == 3 < len(rows) and since["time_s"].iloc[0] == pytest.approx(FROM)
+    assert run.summary["mean_front_m"] == pytest.approx(since["front_m"].mean(), rel=1e-12)
+    assert run.summary["mean_grains"] == pytest.approx(since["grains"].mean(), rel=1e-12)
+    assert run.summary["front_m"] == rows["front_m"].iloc[-1] and "mean_time_s" not in run.summary
+
+
+def test_without_such_a_time_there_are_no_means_of_metrics():
+    rows = [{"time_s": time, "drop_Pa": 10.0 * time} for time in (0.0, 0.1, 0.2)]
+    assert metrics.means(rows, 0.0) == metrics.means(rows, 0.3) == {}
+    assert metrics.means(rows, 0.1) == {"mean_drop_Pa": pytest.approx(1.5)}
 
 
 def test_profiles_of_a_stream_tell_its_share_its_speed_and_what_passes(duct):

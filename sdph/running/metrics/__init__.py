@@ -40,6 +40,7 @@ AT_OUTPUTS = {
     "sizes": sizing.metrics,
 }
 IN_THE_END = {"bubble": bed_in_the_end}
+ROUND_OFF = 1e-12  # of a time
 
 
 def row(simulation) -> dict[str, float]:
@@ -76,8 +77,16 @@ def refuse_unknown(case) -> None:
 
 
 def summary(case, rows: list[dict]) -> dict[str, float]:
-    """The last row, and what only all of them tell."""
+    """The last row, what only all of them tell, and means over those since `run.average_from` where that is not 0."""
     if not names(case):
         return {}
     in_the_end = [IN_THE_END[name](rows) for name in names(case) if name in IN_THE_END]
-    return {key: value for part in (rows[-1], *in_the_end) for key, value in part.items() if key != "time_s"}
+    told = {key: value for part in (rows[-1], *in_the_end) for key, value in part.items() if key != "time_s"}
+    return told | means(rows, case.run.average_from)
+
+
+def means(rows: list[dict], since: float) -> dict[str, float]:
+    """mean_NAME of each number over the outputs from `since` [s] on; none where that is 0 or after the last output."""
+    own = [row for row in rows if row["time_s"] >= since * (1.0 - ROUND_OFF)] if since > 0.0 else []
+    columns = [key for key in own[0] if key != "time_s"] if own else []
+    return {f"mean_{key}": sum(row[key] for row in own) / len(own) for key in columns}

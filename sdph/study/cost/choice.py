@@ -42,7 +42,7 @@ def settings_for(scene: str, wanted: tuple[str, float], report) -> tuple[str, ..
     chosen = (*own.settings, *overrides({key: best[key] for key in own.keys}))
     over = f", measured with {' '.join(own.excerpt)}" if own.excerpt else ""
     report(
-        f"{named(wanted)}: {' '.join(chosen)}; within {best['bound']:.2g} of its limit{over}, "
+        f"{named(wanted)}: {' '.join(chosen)}; within {errors.percent(best['bound'])} of its limit{over}, "
         f"{best['wall_s']:.3g} s ({file})"
     )
     if different := errors.model_difference(own, rows):

@@ -45,6 +45,11 @@ class Converged(NamedTuple):
         return share(value - reference, reference if scale is None else scale)
 
     @property
+    def own(self) -> float:
+        """The limit in the metric's own unit, with its sign; nan of one that is told as a share of a reference."""
+        return math.nan if self.referred else self.limit.value * abs(self.scale)
+
+    @property
     def off(self) -> float:
         """Distance of the limit from the reference, where that is beyond the doubt and worth telling; else 0."""
         apart = abs(self.limit.value)
@@ -122,10 +127,16 @@ def refusal(own: Ladder, rows: list[dict], accuracy: float) -> str:
         return "no level of its ladder has been measured"
     name, worst = max(known.items(), key=lambda item: item[1].limit.doubt)
     if worst.limit.doubt > accuracy:
-        doubt = f"by {worst.limit.doubt:.2g}" if math.isfinite(worst.limit.doubt) else "without bound"
-        return f"not shown to converge to {accuracy:g}: the limit of {name} is in doubt {doubt}"
+        doubt = f"by {percent(worst.limit.doubt)}" if math.isfinite(worst.limit.doubt) else "without bound"
+        why = f" ({worst.limit.why})" if worst.limit.why else ""
+        return f"not shown to converge to {100 * accuracy:g} %: the limit of {name} is in doubt {doubt}{why}"
     finest = levels(own, rows)[1][-1]
-    return f"not shown to converge to {accuracy:g}: the finest level errs by up to {finest['bound']:.2g}"
+    return f"not shown to converge to {100 * accuracy:g} %: the finest level errs by up to {percent(finest['bound'])}"
+
+
+def percent(share: float) -> str:
+    """A share per cent, to two digits, of more than all to three; - for what is not told."""
+    return f"{100 * share:.{3 if abs(share) >= 1.0 else 2}g} %" if math.isfinite(share) else "-"
 
 
 def model_difference(own: Ladder, rows: list[dict]) -> str:
@@ -134,7 +145,7 @@ def model_difference(own: Ladder, rows: list[dict]) -> str:
     name = max(known, key=lambda name: known[name].off, default=None)
     if name is None or not known[name].off:
         return ""
-    value, doubt, _ = known[name].limit
+    value, doubt = known[name].limit[:2]
     return (
         f"{name} converges to {100 * value:+.2g} % off the reference (doubt {100 * doubt:.2g} %): a difference of "
         "model and reference, which no setting closes"

@@ -18,6 +18,7 @@ from sdph.study.explain import tables
 LIMITS = (0.10, 0.05, 0.02, 0.01)  # errors that the table answers for
 NEGLIGIBLE = 0.01  # both below the usual `run.accuracy`: rightly told to be of no account
 LEAST = 1e-12  # error that the logarithmic axis ends at
+NEAR_THE_EDGE = 0.7  # of the width: names of points beyond it stand on their left
 FACTOR = 3.0  # an estimate is right within it: our choice
 
 
@@ -30,35 +31,47 @@ def text(scene: str, rows: list[dict]) -> str:
     parts += [tables.table([_limit(name, metric) for name, metric in known.items()])] if known else []
     parts.append(tables.table([answer(own, rows, limit) for limit in LIMITS]))
     parts += [tables.table([prices(own, rows, name) for name in known])] if len(known) > 1 else []
-    parts += [different] if (different := errors.model_difference(own, rows)) else []
-    found = measured_rows.orders(own, rows)
-    parts.append(
-        "observed orders: " + (", ".join(f"{key} {order:.2f}" for key, order in found.items()) or "too few rungs yet")
-    )
+    parts += [line for line in (errors.model_difference(own, rows), *instants(own, known)) if line]
+    found = {key: order for key, order in measured_rows.orders(own, rows).items() if order > 0.0}
+    told = ", ".join(f"{key} {order:.2f}" for key, order in found.items()) or "none, or too few rungs yet"
+    parts.append(f"observed orders: {told}")
     dropped = without(scene, rows)
     return "\n\n".join([*parts, *([tables.table(dropped)] if dropped else [])])
 
 
+def instants(own, known: dict[str, errors.Converged]) -> list[str]:
+    """Advice to take means over time of metrics that swing from rung to rung, if there are such in a ladder of keys of
+    summary.json."""
+    swing = [name for name, metric in known.items() if metric.limit.swings and metric.limit.doubt > errors.TOLD]
+    told = [name for name in swing if name in own.metrics and not name.startswith("mean_")]
+    return [
+        f"{', '.join(told)}: no order over the rungs. A number of metrics.csv is that of the last instant: where its "
+        f"curve fluctuates, its mean has less doubt; set run.average_from_s and give mean_{told[0]} in place of "
+        f"{told[0]}"
+    ] if told else []  # fmt: skip
+
+
 def _row(own, row: dict) -> dict:
     who = {"rung": row["label"] if row["solver"] == OWN else f"{row['solver']}, {row['label']}"}
+    told = {"error": "error", "at most, with all finer": "bound", "off the reference": "off reference"}
     return (
         who
         | {key: row[key] for key in own.keys}
-        | {"error": row["error"], "at most, with all finer": row["bound"], "off the reference": row["off reference"]}
+        | {head: errors.percent(row[name]) for head, name in told.items()}
         | {"wall [s]": row["wall_s"], "load": row["load"]}
     )
 
 
 def _limit(name: str, metric: errors.Converged) -> dict:
     """Limit that a metric converges to: its share of the reference, or its own value."""
-    value, doubt, order = metric.limit
+    limit = metric.limit
     return {
         "metric": name,
-        "limit": value * metric.scale if not metric.referred else math.nan,
-        "limit off the reference": value if metric.referred else math.nan,
-        "doubt": doubt,
-        "order": order,
-        "": "off beyond the doubt: model and reference differ" if metric.off else "",
+        "limit": metric.own,
+        "limit off the reference": errors.percent(limit.value) if metric.referred else "-",
+        "doubt": errors.percent(limit.doubt),
+        "order": limit.order,
+        "": "off beyond the doubt: model and reference differ" if metric.off else limit.why,
     }
 
 
@@ -69,7 +82,7 @@ def answer(own, rows: list[dict], limit: float) -> dict:
     return {
         "for": f"{100 * limit:g} %",
         "take": take,
-        "at most": best["bound"] if best else math.nan,
+        "at most": errors.percent(best["bound"]) if best else "-",
         "it costs [s]": best["wall_s"] if best else math.nan,
     }
 
@@ -93,7 +106,8 @@ def without(scene: str, rows: list[dict]) -> list[dict]:
         if row["solver"] == OWN and row["without"] != ALL:
             change, estimate = measured_rows.distance(middle, row), judged[row["without"]].error_if_off
             found.append({
-                "effect left out": row["without"], "measured change": change, "estimate": estimate,
+                "effect left out": row["without"], "measured change": errors.percent(change),
+                "estimate": errors.percent(estimate),
                 "within a factor of 3": "yes" if near(change, estimate) else "NO",
             })  # fmt: skip
     return found
@@ -116,13 +130,13 @@ def draw(scene: str, rows: list[dict], picture: Path) -> None:
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(figsize=(7.5, 5.5), constrained_layout=True)
-    for row in rows:
-        _point(axes, row)
-    _line(axes, measured_rows.front(rows), "o-", "tab:red", "sdph, promised")
+    _line(axes, measured_rows.front(rows), "o-", "tab:red", "sdph, at most, with all finer")
     for colour, solver in zip(("tab:blue", "tab:green"), sorted({row["solver"] for row in rows} - {OWN})):
         _line(axes, [row for row in rows if row["solver"] == solver], "s--", colour, f"{solver}, by the same rule")
     loads = [float(row["load"]) for row in rows]
-    axes.set(xscale="log", yscale="log", xlabel="wall time [s]", ylabel="distance of the worst metric from the limit")
+    axes.set(xscale="log", yscale="log", xlabel="wall time [s]")
+    axes.set_ylabel("distance of the worst metric from the limit [%]")
+    _points(axes, [row for row in rows if math.isfinite(row["error"])])
     axes.set_title(
         f"{scene}; reference: {declared(scene).reference}\nload of the machine {min(loads):g} to {max(loads):g} on "
         f"{int(rows[0]['cores'])} cores",
@@ -136,15 +150,18 @@ def draw(scene: str, rows: list[dict], picture: Path) -> None:
 
 def _line(axes, rows: list[dict], style: str, colour: str, label: str) -> None:
     told = [row for row in rows if math.isfinite(row["bound"])]
-    places = [row["wall_s"] for row in told], [max(row["bound"], LEAST) for row in told]
-    axes.plot(*places, style, color=colour, label=label if told else f"{label}: nothing")
+    places = [row["wall_s"] for row in told], [100.0 * max(row["bound"], LEAST) for row in told]
+    axes.plot(*places, style, color=colour, label=label if told else f"{label}: nothing can be told")
 
 
-def _point(axes, row: dict) -> None:
-    if not math.isfinite(row["error"]):
-        return
-    place = row["wall_s"], max(row["error"], LEAST)
-    axes.plot(*place, "o" if row["without"] == ALL else "x", color="tab:gray", ms=4)
-    label = str(row["label"])
-    named = f"{label.rpartition('.')[2]}={row[label]}" if label in row else label
-    axes.annotate(named, place, fontsize=6, xytext=(3, 3), textcoords="offset points")
+def _points(axes, rows: list[dict]) -> None:
+    """Each row by its own error, its name beside it on the side where there is room."""
+    places = [(row["wall_s"], 100.0 * max(row["error"], LEAST)) for row in rows]
+    for row, place in zip(rows, places):
+        axes.plot(*place, "o" if row["without"] == ALL else "x", color="tab:gray", ms=4)
+    for row, place in zip(rows, places):
+        label = str(row["label"])
+        named = f"{label.rpartition('.')[2]}={row[label]}" if label in row else label
+        across, _ = axes.transAxes.inverted().transform(axes.transData.transform(place))
+        side, off = ("right", -3) if across > NEAR_THE_EDGE else ("left", 3)
+        axes.annotate(named, place, fontsize=6, xytext=(off, 3), textcoords="offset points", ha=side)

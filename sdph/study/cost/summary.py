@@ -41,10 +41,10 @@ def _markdown(head: tuple[str, ...], rows: list[list[str]]) -> list[str]:
 
 
 def _limited(name: str, metric: errors.Converged) -> list[str]:
-    value, doubt, order = metric.limit
-    own = "" if metric.referred else f"{value * metric.scale:.4g}"
-    off = percent(value) if metric.referred else ""
-    return [name, own, off, percent(doubt), "-" if math.isnan(order) else f"{order:.1f}"]
+    value, doubt, order = metric.limit[:3]
+    own = "" if metric.referred else f"{metric.own:.4g}"
+    off = errors.percent(value) if metric.referred else ""
+    return [name, own, off, errors.percent(doubt), "-" if math.isnan(order) else f"{order:.1f}"]
 
 
 def _rung(own: Ladder, row: dict) -> list[str]:
@@ -53,7 +53,7 @@ def _rung(own: Ladder, row: dict) -> list[str]:
     keys = own.keys[:1] if level else [key for key in own.keys if str(row[key]) != str(own.middle[key])]
     settings = "" if row["solver"] != OWN else " ".join(f"{key} = {row[key]}" for key in keys)
     who = row["label"] if level or row["without"] != ALL else "alone"
-    numbers = (percent(row[name]) for name in ("off reference", "error", "bound"))
+    numbers = (errors.percent(row[name]) for name in ("off reference", "error", "bound"))
     where = who if row["solver"] == OWN else f"{row['solver']}, {who}"
     return [where, settings, *numbers, f"{row['wall_s']:.2g} s", f"{row['load']:g}"]
 
@@ -65,8 +65,8 @@ def _lines(scene: str, own: Ladder, rows: list[dict]) -> list[list[str]]:
     for name, metric in errors.converged(own, rows).items():
         judged = errors.judged(own, measured_rows.of_metric(rows, name))
         place, reference, measured = ("", "", "") if found else about
-        _, doubt, order = metric.limit
-        converges = percent(doubt), "-" if math.isnan(order) else f"{order:.1f}", _off(metric)
+        _, doubt, order = metric.limit[:3]
+        converges = errors.percent(doubt), "-" if math.isnan(order) else f"{order:.1f}", _off(metric)
         found.append([place, name, *_prices(judged), *converges, reference, measured, _others(judged)])
     return found
 
@@ -78,7 +78,7 @@ def _prices(judged: list[dict], solver: str = OWN) -> list[str]:
 
 def _off(metric: errors.Converged) -> str:
     if metric.off:
-        return percent(metric.off)
+        return errors.percent(metric.off)
     return "within the doubt" if metric.referred else ""
 
 
@@ -86,8 +86,3 @@ def _others(judged: list[dict]) -> str:
     """Solver, and what the same errors cost by it."""
     solvers = sorted({row["solver"] for row in judged} - {OWN})
     return "; ".join(f"{solver} {', '.join(_prices(judged, solver))}" for solver in solvers)
-
-
-def percent(share: float) -> str:
-    """Two digits; - for what is not told."""
-    return f"{100 * share:.2g} %" if math.isfinite(share) else "-"

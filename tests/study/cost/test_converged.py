@@ -71,6 +71,33 @@ def test_a_series_that_turns_is_in_doubt_by_its_range():
     assert converged.limit([4.0, 2.0, 1.0], [1.0, 3.0, 3.0])[:2] == (3.0, 2.0)
 
 
+FLUCTUATING = (10.0, 7.5, 5.0, 3.5), (2133.6, 2288.0, 1981.1, 1972.3)  # Pa, of a bed at one instant; mm
+
+
+def test_two_rungs_that_are_close_by_chance_sell_nothing():
+    """The finest three go one way and less and less, as of an order above 2; the fourth shows that it is chance."""
+    found = converged.limit(*map(list, FLUCTUATING))
+    assert found[:2] == (1972.3, pytest.approx(2288.0 - 1972.3)) and math.isnan(found.order) and found.swings
+    assert found.why == "the finest four rungs go up and down; doubt: the spread of the finest three"
+    made = judged(FLUCTUATING[1], FLUCTUATING[0])
+    assert walls(made, 0.02, 0.1, 0.15) == [None] * 3
+    assert errors.refusal(own(FLUCTUATING[0]), made, 0.02) == (
+        f"not shown to converge to 2 %: the limit of a is in doubt by 16 % ({found.why})"
+    )
+    assert converged.limit([10.0, 7.5, 5.0, 3.5], [2310.0, *FLUCTUATING[1][1:]]).why.startswith(
+        "changes of the finest four rungs do not shrink"
+    )
+    clean = converged.limit([10.0, 7.5, 5.0, 3.5], [2700.0, *FLUCTUATING[1][1:]])
+    assert clean.order == 2.0 and clean.why == "" and not clean.swings
+
+
+@pytest.mark.parametrize("steps", [(8.0, 7.0, 4.0, 2.0), (4.0, 3.5, 2.0, 1.9, 1.0)])
+def test_changes_of_uneven_steps_are_compared_by_their_steps(steps):
+    """The second is larger than the first here, as its step is wider."""
+    found = converged.limit(list(steps), [5.0 + h for h in steps])
+    assert (found.value, found.order) == (pytest.approx(5.0), pytest.approx(1.0))
+
+
 def test_two_levels_are_in_doubt_by_three_times_first_order():
     assert converged.limit([2.0, 1.0], [1.2, 1.1])[:2] == (1.1, pytest.approx(0.3))
     assert converged.limit([1.5, 1.0], [1.2, 1.1])[:2] == (1.1, pytest.approx(0.6))
@@ -94,7 +121,7 @@ def test_the_bed_does_not_sell_its_crossing_of_the_reference(steps):
     made = judged(BED, steps, 705.6)
     assert [r["off reference"] for r in made[2:]] == pytest.approx([0.0301, 0.0799], abs=1e-4)
     assert walls(made, 0.02, 0.05) == [None, None]
-    assert errors.refusal(own(steps), made, 0.05).startswith("not shown to converge to 0.05: the ")
+    assert errors.refusal(own(steps), made, 0.05).startswith("not shown to converge to 5 %: the ")
     assert all(r["bound"] >= r["error"] for r in made)
 
 
@@ -107,16 +134,16 @@ def test_a_second_order_series_is_priced_by_its_errors_and_the_doubt():
         [0.4, 0.2, 0.1, None]
     )
     assert errors.refusal(own((0.4, 0.2, 0.1)), made, 0.019) == (
-        "not shown to converge to 0.019: the finest level errs by up to 0.02"
+        "not shown to converge to 1.9 %: the finest level errs by up to 2 %"
     )
     assert errors.model_difference(own((0.4, 0.2, 0.1)), made) == ""
 
 
 def test_a_level_has_the_errors_of_all_finer_ones():
-    """The coarsest sits on the limit by chance: 1, 1.4, 1.2, 1.1."""
-    made = judged([1.0, 1.4, 1.2, 1.1], reference=1.0)
-    assert [r["error"] for r in made] == pytest.approx([0.0, 0.4, 0.2, 0.1])
-    assert [r["bound"] for r in made] == pytest.approx([0.5, 0.5, 0.3, 0.2])
+    """The coarsest sits on the limit by chance: 1, 1.8, 1.4, 1.2, 1.1."""
+    made = judged([1.0, 1.8, 1.4, 1.2, 1.1], (16.0, *STEPS), reference=1.0)
+    assert [r["error"] for r in made] == pytest.approx([0.0, 0.8, 0.4, 0.2, 0.1])
+    assert [r["bound"] for r in made] == pytest.approx([0.9, 0.9, 0.5, 0.3, 0.2])
 
 
 @given(st.lists(st.floats(-1e3, 1e3), min_size=1, max_size=4), st.floats(0.001, 10.0))
@@ -206,14 +233,14 @@ def test_accuracy_refuses_in_one_line_what_is_not_shown(measured):
     with pytest.raises(CaseError) as refused:
         choice.settings_for("some", ("", 0.05), lambda text: None)
     line = str(refused.value)
-    assert line.startswith("some is not shown to converge to 0.05: the limit of a is in doubt by") and "\n" not in line
+    assert line.startswith("some is not shown to converge to 5 %: the limit of a is in doubt by") and "\n" not in line
 
 
 def test_accuracy_tells_a_difference_of_models(measured):
     measured((1.14, 1.12, 1.11), 1.0)
     said = []
     assert choice.settings_for("some", ("", 0.0301), said.append) == ("x=2.0",)
-    assert "within 0.03 of its limit" in said[0]
+    assert "within 3 % of its limit" in said[0]
     assert "of the numerics alone: a converges to +10 % off" in said[1] and "two fluids" in said[1]
 
 

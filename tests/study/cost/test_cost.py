@@ -110,8 +110,8 @@ def test_accuracy_takes_what_was_measured_and_says_so(tmp_path, monkeypatch):
         "some", ("", 0.4), said.append
     )  # 0.09 and three times that
     assert "resolution.spacing_mm=10.0" in choice.settings_for("some", ("", 0.3), said.append)
-    assert "within 0.27 of its limit" in said[-1] and "4 s" in said[-1]
-    with pytest.raises(CaseError, match="in doubt by 0.27"):
+    assert "within 27 % of its limit" in said[-1] and "4 s" in said[-1]
+    with pytest.raises(CaseError, match="in doubt by 27 %"):
         choice.settings_for("some", ("", 0.2), said.append)
     with pytest.raises(CaseError, match="sdph cost other"):
         choice.settings_for("other", ("", 0.02), said.append)
@@ -201,3 +201,43 @@ def test_rows_of_another_ladder_do_not_go_below_a_head_that_is_not_theirs(tmp_pa
     with pytest.raises(CaseError, match="move it away and measure again"):
         climb._keep(file, row(x=1.0, y=2.0))
     assert file.read_text() == before and len(rows.read(file)) == 1
+
+
+def reported(monkeypatch, values, name="drop_Pa"):
+    own = ladder.Ladder(knobs={"x": [10.0, 7.5, 5.0, 3.5]}, metrics=[name])
+    made = [row(f"all {n + 1}/4", x=x) for n, x in enumerate(own.steps)]
+    made = [one | {"metrics": json.dumps({name: (value, None, None)})} for one, value in zip(made, values)]
+    monkeypatch.setattr(report, "declared", lambda scene: own)
+    monkeypatch.setattr(report, "without", lambda scene, rows: [])
+    return own, errors.judged(own, made)
+
+
+def test_a_number_of_one_instant_that_swings_is_told_to_take_its_mean(monkeypatch):
+    swinging, converging = (2133.6, 2288.0, 1981.1, 1972.3), (2.0, 1.5, 1.0, 0.7)
+    told = report.text("some", reported(monkeypatch, swinging)[1])
+    assert "set run.average_from_s and give mean_drop_Pa in place of drop_Pa" in told
+    assert "the finest four rungs go up and down; doubt: the spread of the finest three" in told
+    for values, name in ((converging, "drop_Pa"), (swinging, "mean_drop_Pa")):
+        assert "average_from_s" not in report.text("some", reported(monkeypatch, values, name)[1])
+
+
+def test_a_limit_has_its_sign_and_errors_are_told_per_cent(monkeypatch):
+    own, made = reported(monkeypatch, (-257.0, -258.0, -258.8, -259.1))
+    known = errors.converged(own, made)
+    assert report._limit("drop_Pa", known["drop_Pa"])["limit"] == pytest.approx(-259.4, abs=0.1)
+    own, made = reported(monkeypatch, (4.42, 3.42, 2.42, 1.0))
+    assert report._row(own, made[0])["error"] == "342 %" and report._row(own, made[-1])["error"] == "0 %"
+
+
+def test_names_in_the_figure_stay_within_it():
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots()
+    axes.set(xscale="log", yscale="log")
+    made = [row("all 1/1", wall=wall) | {"error": 0.1} for wall in (1.0, 100.0)]
+    report._points(axes, made)
+    figure.canvas.draw()
+    assert all(figure.bbox.contains(*corner) for text in axes.texts for corner in text.get_window_extent().corners())
+    assert axes.lines[0].get_ydata() == [10.0]  # per cent
+    assert [text.get_ha() for text in axes.texts] == ["left", "right"]
+    pyplot.close(figure)
