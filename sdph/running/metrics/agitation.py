@@ -24,7 +24,8 @@ def metrics(points, masses, velocities, theta) -> dict[str, float]:
 
 
 def of_run(simulation) -> dict[str, float]:
-    """`metrics` of the particles in the gas, and the densest of them."""
+    """motion_J and agitation_J, m v^2/2 and 3/2 m theta of the grains; centre_x_m and spread_x_m, their mean place
+    along x and the root of the mean square distance from it, likewise of the other axes; alpha_p_max, the densest."""
     state = simulation.grains.inside
     theta = state.theta if len(state.theta) else np.zeros(len(state.x))
     found = metrics(particles.positions(state), state.mass, particles.velocities(state), theta)

@@ -18,11 +18,12 @@ INSIDE = (0.15, 0.75)  # of the bed's height: away from floor and surface
 
 
 def metrics(simulation) -> dict[str, float]:
-    """pressure_drop_Pa from floor to top; ergun_Pa, what Ergun says of every row at the gas flux of now over the floor,
-    by the Sauter diameter, which slows down as the vessel widens; weight_Pa of the grains in gas, each
-    over the vessel's area where it stands, which is what the gas that carries all of them falls by; gradient_Pa_m of
-    the pressure inside the bed, and alpha_p there (nan where fewer than two rows lie inside); speeds [m/s] of the
-    grains; their fractions."""
+    """superficial_velocity_m_s of the gas over the floor; pressure_drop_Pa from floor to top; ergun_Pa, what Ergun says
+    of every row at the gas flux of now over the floor, by the Sauter diameter, which slows down as the vessel widens;
+    weight_Pa of the grains in gas, each over the vessel's area where it stands, which is what the gas that carries all
+    of them falls by; gradient_Pa_m of the pressure inside the bed, and alpha_p_inside, the fraction there (nan where
+    fewer than two rows lie inside); speed_max_m_s and speed_rms_m_s of the grains, the second over particles;
+    alpha_p_mean, by mass, and alpha_p_max of their fractions where they are; bed_height_m."""
     case, mesh, fields = simulation.case, simulation.gas.mesh, simulation.cell_fields()
     up = upwards(case, "column")
     rows, state = CellRows(mesh, up), simulation.grains.inside

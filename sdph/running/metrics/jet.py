@@ -19,8 +19,10 @@ TOLD = (  # of each jet
 
 
 def metrics(simulation) -> dict[str, float]:
-    """front_m along the nozzle's direction; sag_m of the head below its axis along gravity; temperatures [K] of grains
-    and core; vapour_mass_fraction_max; gas_temperature_K the coldest and hottest.
+    """grains, the number of particles; front_m along the nozzle's direction; sag_m of the head below its axis along
+    gravity; alpha_p_max, the densest; core_temperature_K, the mean of grains nearly as dense as at the nozzle;
+    grain_temperature_min_K, grain_temperature_max_K; speed_max_m_s of the grains; gas_temperature_min_K,
+    gas_temperature_max_K; with vapour vapour_mass_fraction_max.
 
     Of several nozzles, what is told of one jet has the nozzle's name in front: left_front_m.
     """
