@@ -45,14 +45,32 @@ def sweep(wish: Wish, say: Callable[[str], None]) -> list[dict]:
     left = [job for job in all_jobs if job.name not in outcomes]
     say(f"{len(all_jobs)} runs, {len(left)} of them to do, in {wish.out / runs.RUNS}")
     keys, metrics = list(points[0]), list(wish.metrics)
-    found = table.write(wish.out, all_jobs, outcomes)
-    if found:
+    found, told = table.write(wish.out, all_jobs, outcomes), ""
+    if found and left:
         table.refuse_unknown(found, keys, metrics, len(left))
     for job, outcome in pool.outcomes(left, runs.done, wish.workers, wish.scheduler):
         outcomes[job.name] = outcome
         found = table.write(wish.out, all_jobs, outcomes)
         say(f"{len(outcomes)}/{len(all_jobs)} {job.name}: {outcome['reason'] or 'fine'}, {outcome['took_s']:.0f} s")
-        table.refuse_unknown(found, keys, metrics, len(all_jobs) - len(outcomes))
+        if len(outcomes) < len(all_jobs):
+            table.refuse_unknown(found, keys, metrics, len(all_jobs) - len(outcomes))
+            told = told or _awaited(found, keys, metrics, say)
     if axis:
-        say(f"{table.draw(found, keys, metrics, axis, wish.out / table.FIGURE)}")
+        _draw(wish, found, keys, metrics, axis, say)
     return found
+
+
+def _awaited(found: list[dict], keys: list[str], metrics: list[str], say: Callable[[str], None]) -> str:
+    """Say once, as soon as a summary is known, which metrics it does not have."""
+    if line := table.awaited(found, keys, metrics):
+        say(line)
+    return line
+
+
+def _draw(wish: Wish, found: list[dict], keys: list[str], metrics: list[str], axis, say) -> None:
+    """Draw what is known of the metrics; `CaseError` of those that no summary has, after that."""
+    own = table.known(found, keys)
+    there = [name for name in metrics if name in own]
+    if there or not own:  # where all runs failed their crosses are drawn
+        say(f"{table.draw(found, keys, there or metrics, axis, wish.out / table.FIGURE)}")
+    table.refuse_unknown(found, keys, metrics)

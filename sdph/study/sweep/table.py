@@ -15,6 +15,7 @@ from sdph.study.sweep.jobs import FINE, Job
 FILE, FIGURE = "sweep.csv", "sweep.png"
 HEAD = ("run", "exit_code", "reason")
 WIDTH, HEIGHT = 6.4, 3.6  # of a panel [inches]
+NEAR = 5  # names that are told beside one that no summary has
 SLIP = 0.9  # likeness from which on a word is another one misspelt; our choice
 
 
@@ -109,15 +110,31 @@ def _axis(key: str, values: list) -> Axis | None:
     return Axis(key, True, varied[0] if len(varied) == 1 else None)
 
 
+def known(found: list[dict], keys: list[str]) -> list[str]:
+    """Names of the numbers of the summaries so far."""
+    good = [row for row in found if row["exit_code"] == FINE]
+    return [key for key in found[0] if key not in (*HEAD, *keys) and any(_number(row[key]) for row in good)]
+
+
 def refuse_unknown(found: list[dict], keys: list[str], metrics: list[str], left: int = 0) -> None:
     """CaseError where a metric is a number of none of the summaries; while runs are `left`, only where it is a known
     one misspelt: what is told only where something happened may stand in a summary that is still to come."""
-    good = [row for row in found if row["exit_code"] == FINE]
-    known = [key for key in found[0] if key not in (*HEAD, *keys) and any(_number(row[key]) for row in good)]
+    own, good = known(found, keys), any(row["exit_code"] == FINE for row in found)
     for metric in metrics if good else []:
-        if metric not in known and (not left or difflib.get_close_matches(metric, known, 1, SLIP)):
-            told = unknown(metric, known).replace("unknown key", "no number of the summaries called", 1)
+        if metric not in own and (not left or difflib.get_close_matches(metric, own, 1, SLIP)):
+            told = unknown(metric, own).replace("unknown key", "no number of the summaries called", 1)
             raise CaseError(f"--plot: {told}")
+
+
+def awaited(found: list[dict], keys: list[str], metrics: list[str]) -> str:
+    """A line on metrics that no summary has yet, with the nearest of those that there are; empty where there is none."""
+    own = known(found, keys)
+    told = [f"{name} (near: {_near(name, own)})" for name in metrics if own and name not in own]
+    return f"--plot: no summary yet has {', '.join(told)}; those that follow may" if told else ""
+
+
+def _near(name: str, own: list[str]) -> str:
+    return ", ".join(difflib.get_close_matches(name, own, NEAR, 0.4)) or "none"
 
 
 def _vector(value) -> bool:
@@ -147,14 +164,20 @@ def draw(found: list[dict], keys: list[str], metrics: list[str], over: Axis, pat
     return path
 
 
+def _order(value) -> tuple[bool, float, str]:
+    """Place of a value among others of its key: numbers by size, then all else by its text, which is last here."""
+    return not _number(value), float(value) if _number(value) else 0.0, str(value)
+
+
 def _panel(axis, found: list[dict], metric: str, over: Axis, others: list[str]) -> None:
-    lines: dict[str, list[tuple[float, float]]] = {}
+    lines: dict[tuple, list[tuple[float, float]]] = {}
     placed = [(at, row) for row in found if (at := over.place(row)) is not None]
     for at, row in placed:
         if row["exit_code"] == FINE:
-            label = ", ".join(f"{key} = {row[key]}" for key in others)
-            lines.setdefault(label, []).append((at, row[metric] if _number(row[metric]) else math.nan))
-    for label, places in sorted(lines.items()):
+            own = tuple(_order(row[key]) for key in others)
+            lines.setdefault(own, []).append((at, row[metric] if _number(row[metric]) else math.nan))
+    for own, places in sorted(lines.items()):
+        label = ", ".join(f"{key} = {told}" for key, (*_, told) in zip(others, own))
         axis.plot(*zip(*sorted(places)), "o-", label=label, markersize=4)
     failed = [at for at, row in placed if row["exit_code"] != FINE]
     none = [at for at, row in placed if row["exit_code"] == FINE and not _number(row[metric])]

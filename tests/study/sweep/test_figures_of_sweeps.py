@@ -98,6 +98,39 @@ def test_a_number_that_may_still_come_is_waited_for(left, told):
         table.refuse_unknown(rows, ["k.x"], ["rupture_time_s"], left)
 
 
+def test_what_is_right_is_drawn_and_the_rest_named_first_after_one_run_and_in_the_end(tmp_path, monkeypatch, capsys):
+    def done(own):
+        folder = tmp_path / "runs" / own.name
+        folder.mkdir(parents=True)
+        (folder / "summary.json").write_text('{"time_s": 1.0, "centre_rise_K": 2.0, "heat_J": 3.0}')
+        return {**FINE, "took_s": 0.0}
+
+    monkeypatch.setattr(jobs, "done", done)
+    command = ["sweep", "disc_cluster", "--gas", "embedded", "--out", str(tmp_path), "--plot", "heat_J"]
+    command += ["--plot", "rise_of_centre_K", "--set", "resolution.spacing_mm=20,22,25"]
+    for _ in range(2):
+        assert cli.main(command) == 2
+        *said, refused = capsys.readouterr().err.splitlines()
+        assert (
+            "no number of the summaries called rise_of_centre_K" in refused and "did you mean centre_rise_K" in refused
+        )
+        assert said[-1].endswith("sweep.png") and (tmp_path / "sweep.png").stat().st_size > 5000
+        early = [n for n, line in enumerate(said) if "no summary yet has rise_of_centre_K (near: centre_rise_K" in line]
+        assert early == ([2] if "3 of them to do" in said[0] else [])  # after the first run, once
+        (tmp_path / "sweep.png").unlink()
+    assert len(rows_of(tmp_path)) == 3
+
+
+def test_lines_are_in_the_order_of_their_numbers():
+    from matplotlib import pyplot
+
+    found = [{"run": "a", **FINE, "k.x": x, "k.y": y, "lost_J": 1.0} for x in (1, 2) for y in (11, 22, 6, "auto")]
+    _, axis = pyplot.subplots()
+    table._panel(axis, found, "lost_J", table.Axis("k.x"), ["k.y"])
+    assert [line.get_label() for line in axis.lines] == ["k.y = 6", "k.y = 11", "k.y = 22", "k.y = auto"]
+    pyplot.close()
+
+
 def test_a_sweep_goes_on_after_a_run_without_the_number(tmp_path, monkeypatch, capsys):
     """It is told when all runs are done, and a later call with more values goes on as well."""
 
