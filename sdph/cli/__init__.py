@@ -104,8 +104,7 @@ def run(options) -> int:
         else:
             name, file = scenes.find(options.target)
             if options.accuracy:
-                choice.refuse_own(file, options.accuracy)
-                overrides = choice.with_settings(name, options.accuracy, overrides, reporter.status)
+                overrides = choice.with_settings(options.target, options.accuracy, overrides, reporter.status)
             case = vessel.load(file, overrides)
             launch.refuse_useless(case, name, {f"--{key}": getattr(options, key) for key in ("gas", "transport", "np")})
             template = driver.template_of(case, name, file)

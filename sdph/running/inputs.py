@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import hashlib
 import io
 import os
 import shutil
@@ -182,6 +183,13 @@ def beside(file: Path) -> Path | None:
     as it was left; None where there is none."""
     own = gas_of(file.parent) if (file.parent / output.ORIGIN).is_file() else file.parent / "gas"
     return own if own.is_dir() else None
+
+
+def digests(case, file: Path) -> list[str]:
+    """Digests of the files that a case reads, and of those of the OpenFOAM case beside its `file`."""
+    own = beside(file)
+    found = [*map(Path, named(case).values()), *(sorted(own.rglob("*")) if own else ())]
+    return [hashlib.sha256(path.read_bytes()).hexdigest() for path in found if path.is_file()]
 
 
 def keep_gas(template: Path, folder: Path, allow_code: bool) -> None:

@@ -7,16 +7,23 @@ from pathlib import Path
 from sdph import scenes
 from sdph.scenes import paths
 from sdph.schema import CaseError
-from sdph.study.cost import errors
+from sdph.study.cost import errors, measured_case
 from sdph.study.cost import rows as measured_rows
-from sdph.study.cost.ladder import Ladder, declared, overrides, with_ladder
+from sdph.study.cost.ladder import Ladder, declared, overrides
 
 
 def measured(scene: str) -> tuple[Path, list[dict]]:
-    """The rows for a scene: the user's own, else those that come with sdph."""
-    for file in (Path("runs/cost") / scene / "cost.csv", paths.data("validation") / scene / "cost.csv"):
-        if file.is_file():
-            return file, errors.judged(declared(scene), measured_rows.read(file))
+    """The rows for a scene, the user's own, else those that come with sdph; for a case of one's own those that were
+    measured of that very case, but for the keys of its ladder."""
+    own, mine = declared(scene), measured_case.of_ones_own(scene)
+    name = scenes.find(scene)[0] if Path(scene).exists() else scene
+    file = Path("runs/cost") / name / "cost.csv"
+    if mine and file.is_file():
+        measured_case.refuse_other(mine, own, file)
+    elif not mine and (measured_case.is_own(file) or not file.is_file()):
+        file = paths.data("validation") / name / "cost.csv"
+    if file.is_file():
+        return file, errors.judged(own, measured_rows.read(file))
     raise CaseError(
         f"nothing is measured for {scene}, so no accuracy can be promised; measure it with: sdph cost {scene}"
     )
@@ -62,15 +69,6 @@ def named(wanted: tuple[str, float]) -> str:
     """The option as it was given."""
     metric, accuracy = wanted
     return f"--accuracy {metric}={accuracy:g}" if metric else f"--accuracy {accuracy:g}"
-
-
-def refuse_own(file: Path, wanted: tuple[str, float]) -> None:
-    """CaseError where a case file is not that of a scene that comes with sdph, whatever its folder is called."""
-    if scenes.HERE not in file.resolve().parents:
-        raise CaseError(
-            f"{named(wanted)}: what accuracy costs was measured of scenes as they come with sdph, and {file} is none "
-            f"of them: run one by its name ({', '.join(with_ladder())}), or --set the resolution yourself"
-        )
 
 
 def with_settings(scene: str, wanted: tuple[str, float], given: tuple[str, ...], report) -> tuple[str, ...]:

@@ -21,6 +21,7 @@ from sdph.running import driver
 from sdph.running.progress import Reporter
 from sdph.schema import CaseError, unknown
 from sdph.study import compare
+from sdph.study.cost import measured_case
 from sdph.study.cost import rows as measured_rows
 from sdph.study.cost.ladder import ALL, Ladder, case_of, declared, rungs
 
@@ -37,6 +38,7 @@ SHORT = (
 def climb(scene: str, file: Path, budget: float, repeats: int, report) -> list[dict]:
     """Measures the rungs that `file` lacks, in their order, until `budget` [s] is spent; all rows."""
     own, started = declared(scene), time.perf_counter()
+    measured_case.keep(scene, own, file)
     rows = measured_rows.read(file)
     if budget > 0.0:
         rows += _others(scene, own, file, rows, report)

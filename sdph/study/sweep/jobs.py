@@ -58,7 +58,7 @@ def _job(target: str, file: Path, point: dict, more: tuple, flags: tuple, out: P
     try:
         case = vessel.load(file, (*more, *given))
         inputs.check(case)
-        told, refused = "\n".join([cases.dumps(case), *_read(case, file)]), ""
+        told, refused = "\n".join([cases.dumps(case), *inputs.digests(case, file)]), ""
     except CaseError as error:
         told, refused = repr(given), str(error)
     digest = hashlib.sha256(told.encode()).hexdigest()[:HASH]
@@ -68,13 +68,6 @@ def _job(target: str, file: Path, point: dict, more: tuple, flags: tuple, out: P
     folder = os.path.abspath(out / RUNS / name)
     sets = tuple(word for text in (*more, *given) for word in ("--set", text))
     return Job(point, folder, (target, "--out", folder, *sets, *flags), os.getcwd(), threads, refused)
-
-
-def _read(case, file: Path) -> list[str]:
-    """Digests of the files that a case reads, and of those of the OpenFOAM case beside it."""
-    beside = inputs.beside(file)
-    found = [*map(Path, inputs.named(case).values()), *(sorted(beside.rglob("*")) if beside else ())]
-    return [hashlib.sha256(path.read_bytes()).hexdigest() for path in found if path.is_file()]
 
 
 def standing(job: Job, before: dict[str, dict], again: bool) -> dict | None:

@@ -127,7 +127,7 @@ def refuse_unknown(found: list[dict], keys: list[str], metrics: list[str], left:
 
 
 def awaited(found: list[dict], keys: list[str], metrics: list[str]) -> str:
-    """A line on metrics that no summary has yet, with the nearest of those that there are; empty where there is none."""
+    """A line on metrics that no summary has yet, with the nearest that there are; empty where there is none."""
     own = known(found, keys)
     told = [f"{name} (near: {_near(name, own)})" for name in metrics if own and name not in own]
     return f"--plot: no summary yet has {', '.join(told)}; those that follow may" if told else ""
@@ -165,7 +165,7 @@ def draw(found: list[dict], keys: list[str], metrics: list[str], over: Axis, pat
 
 
 def _order(value) -> tuple[bool, float, str]:
-    """Place of a value among others of its key: numbers by size, then all else by its text, which is last here."""
+    """Place of a value among others of its key: numbers by size, then all else by its text, the last of these."""
     return not _number(value), float(value) if _number(value) else 0.0, str(value)
 
 

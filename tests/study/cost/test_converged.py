@@ -255,14 +255,18 @@ def test_the_table_of_all_scenes_refuses_a_crossing(measured):
     assert [cell.strip() for cell in line.split("|")[3:7]] == ["-"] * 4
 
 
-def test_accuracy_is_of_scenes_as_they_come_and_not_of_folders_called_so(tmp_path):
+def test_accuracy_of_a_scene_is_not_that_of_a_folder_called_so(tmp_path, monkeypatch):
     """A case of one's own in a folder called disc_cluster was run with settings that were measured of the scene."""
-    own = tmp_path / "disc_cluster/case.toml"
-    own.parent.mkdir()
-    shutil.copy(scenes.find("disc_cluster")[1], own)
-    with pytest.raises(CaseError, match=r"--accuracy 0\.05: what accuracy costs was measured of scenes"):
-        choice.refuse_own(own, ("", 0.05))
-    choice.refuse_own(scenes.find("disc_cluster")[1], ("", 0.05))
+    scene, mine = scenes.find("disc_cluster")[1], tmp_path / "disc_cluster/case.toml"
+    mine.parent.mkdir()
+    shutil.copy(scene, mine)
+    monkeypatch.chdir(tmp_path)
+    for target in (str(mine), "disc_cluster"):
+        with pytest.raises(CaseError, match="declares no ladder"):
+            choice.settings_for(target, ("", 0.05), lambda text: None)
+    (mine.parent / "cost.toml").write_text("metrics = ['a']\n[knobs]\n'resolution.spacing_mm' = [20.0, 10.0, 5.0]")
+    with pytest.raises(CaseError, match="nothing is measured for disc_cluster"):
+        choice.settings_for("disc_cluster", ("", 0.05), lambda text: None)
 
 
 def test_a_level_that_was_stopped_leaves_those_that_were_measured():
