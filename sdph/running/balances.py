@@ -25,6 +25,8 @@ BARS = {
     "numerical_work_rel": NUMERICAL,
     "energy_missing_rel": 0.01,  # of solids: gel-droplet.md, section 5, energy
 }
+AT_HAND = "energy_at_hand_J"  # of a liquid: what it would set free if it fell to its lowest place, and work to and fro
+SEEN = 1e-3  # of the energy at hand: less than that dissipated, a liquid hardly moves; our choice, as of motion_drift
 # of the impulses of the gas: faces balance its momentum and cells hold it, which is the same in boxes alone, and to
 # first order in a window where mass of cells changes (docs/theory/gas.md). A run tells it, no scene is held to it; our
 # choice
@@ -49,6 +51,12 @@ def work_of_gas(summary: dict) -> list[dict]:
     return [_check(name, summary, NUMERICAL)] if name in summary else []
 
 
+def at_rest(summary: dict) -> bool:
+    """True of a liquid that dissipated less than SEEN of its energy at hand: it hardly moves, and what is numerical has
+    no physical dissipation to be related to. False where a summary does not tell."""
+    return AT_HAND in summary and abs(summary["dissipated_J"]) < SEEN * summary[AT_HAND]
+
+
 def checks(summary: dict) -> list[dict]:
     """The balances that `summary` tells, as `sdph compare` has checks: the bar is the tolerance about 0."""
     # of a droplet in a shell it is of the motion, by explicit steps: gel-droplet.md, section 5
@@ -68,10 +76,19 @@ def missed(summary: dict) -> list[str]:
     name, bar = DRIFT_OF_GAS
     if summary.get(name, 0.0) > bar:
         found.append((name, summary[name], bar))
-    return [f"{name} = {value:.2g}, a balance is good to {bar:g}: {_remedy(name)}" for name, value, bar in found]
+    return [
+        f"{name} = {value:.2g}, a balance is good to {bar:g}: {_remedy(name, summary)}" for name, value, bar in found
+    ]
 
 
-def _remedy(name: str) -> str:
+def _remedy(name: str, summary: dict) -> str:
+    if name == "numerical_work_rel" and at_rest(summary):
+        lost, there = summary["dissipated_J"], summary[AT_HAND]
+        return (
+            f"that is of {lost:.2g} J, all that was dissipated, and next to nothing of the {there:.2g} J that could "
+            "fall or did work: the liquid is nearly at rest, and there is little to relate it to; it counts where "
+            "motion that small is what you look for"
+        )
     if name.endswith("numerical_work_rel"):
         return "shorter steps (run.step_factor below 1) lower what explicit steps do"
     return REMEDIES.get(name, "something was made or lost; docs/results.md says what the column counts")

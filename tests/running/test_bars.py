@@ -37,3 +37,16 @@ def test_a_drift_of_the_momentum_of_the_gas_is_told_and_not_judged():
     (line,) = balances.missed({"gas_momentum_drift_rel": 0.021})
     assert "gas_momentum_drift_rel = 0.021, a balance is good to 0.01" in line and "resolution.cell_mm" in line
     assert not balances.checks({"gas_momentum_drift_rel": 0.021})
+
+
+@pytest.mark.parametrize(
+    ("dissipated", "at_hand", "blamed"), [(3.1e-3, 44.0, False), (4.5e-2, 44.0, True), (3.1e-3, None, True)]
+)
+def test_steps_are_not_blamed_for_what_water_at_rest_has(dissipated, at_hand, blamed):
+    """A miss is told all the same, and fails its check."""
+    summary = {"numerical_work_rel": 0.0255, "dissipated_J": dissipated}
+    summary |= {} if at_hand is None else {balances.AT_HAND: at_hand}
+    (told,) = balances.missed(summary)
+    assert told.startswith("numerical_work_rel = 0.025, a balance is good to 0.02: ")
+    assert ("run.step_factor" in told) == blamed and ("nearly at rest" in told) != blamed
+    assert [row["ok"] for row in balances.checks(summary)] == [False]

@@ -10,6 +10,7 @@ import numpy as np
 from sdph import effects
 from sdph.case import fluids
 from sdph.effects.around import drain, tank
+from sdph.engine import state as particles
 from sdph.engine.state import LIQUID
 from sdph.methods.liquids import bodies, filling
 from sdph.methods.liquids.bounds import limits as limits_of_step
@@ -206,11 +207,12 @@ def limits(s) -> list[dict]:
 
 
 def _beside(s, shared) -> tuple[int, int]:
-    """Numbers of liquid particles and of all that a run has at the start, those of its bodies among them."""
+    """Numbers of liquid particles, both phases, and of all that a run has at the start, those of its bodies among
+    them."""
     if shared is None:
-        return int(s.wet.sum()), len(s.state.x)
+        return int(particles.wet(s.state).sum()), len(s.state.x)
     left = bodies.beside(s.case, s.state, shared.places)
-    return int((left.kind == LIQUID).sum()), len(left.x) + len(shared.places)
+    return int(particles.wet(left).sum()), len(left.x) + len(shared.places)
 
 
 def _drained(case) -> float:

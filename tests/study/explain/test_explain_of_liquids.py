@@ -8,7 +8,7 @@ from sdph import effects, scenes
 from sdph.case import judge
 from sdph.case import read as cases
 from sdph.effects.around import drain, tank
-from sdph.engine.state import LIQUID
+from sdph.engine.state import GAS, LIQUID
 from sdph.methods.liquids.method import LiquidStepper
 from sdph.running.together import Together
 from sdph.schema import CaseError
@@ -39,6 +39,14 @@ def test_numbers_of_the_dam():
     assert own["Weber"] == pytest.approx(1000.0 * speed**2 * 0.05715 / 0.0728, rel=0.01)
     assert own["Bond"] == pytest.approx(1000.0 * 9.81 * 0.05715**2 / 0.0728, rel=0.01)
     assert own["Mach"] == pytest.approx(speed / 21.2, rel=0.01)
+
+
+def test_both_phases_are_counted():
+    """As the summary of a run has them; of oil on water one had been told half of the particles."""
+    own = load("water_under_air")
+    told = {row["what"]: row["value"] for row in tables.explain(own)["expected"]}
+    kinds = judge.scales_of(own).state.kind
+    assert told["liquid particles"] == (kinds == LIQUID).sum() + (kinds == GAS).sum() > (kinds == LIQUID).sum()
 
 
 def test_what_nozzles_bring_is_counted_where_it_leaves_again():
