@@ -90,6 +90,44 @@ def add_kick(s, active, acceleration, dt, part):
         part[k, 0], part[k, 1], part[k, 2], part[k, 3] = work, x, y, z
 
 
+def energy_in_gravity(stepper, active) -> float:
+    """Energy [J] of the active in gravity, -m g.x, of all processes; 0 without gravity."""
+    own, s = stepper.p["gravity"], stepper.state
+    return float(summed(stepper.world, add_height, 1, len(active), s, active, *own)[0]) if own else 0.0
+
+
+@parallel
+def add_height(s, active, gx, gy, gz, part):
+    """part (P, 1): energy [J] of the active in gravity (gx, gy, gz) [m/s2]."""
+    for k in prange(len(part)):
+        found = 0.0
+        for n in range(k * PART, min((k + 1) * PART, len(active))):
+            i = active[n]
+            found -= s.mass[i] * (s.x[i] * gx + s.y[i] * gy + (s.z[i] * gz if len(s.z) else 0.0))
+        part[k, 0] = found
+
+
+def drawn(stepper, active, dt) -> float:
+    """Work [J] of tension on the active over the ways that they are to drift in `dt` [s], of all processes; 0 without
+    tension."""
+    if not stepper.p["free_energy_tension"]:
+        return 0.0
+    s = stepper.state
+    return dt * float(summed(stepper.world, add_power, 1, len(active), s, active, stepper.pulled)[0])
+
+
+@parallel
+def add_power(s, active, acceleration, part):
+    """part (P, 1): power [W] of an acceleration (N, 3) [m/s2] of the active, at their velocities."""
+    for k in prange(len(part)):
+        found = 0.0
+        for n in range(k * PART, min((k + 1) * PART, len(active))):
+            i = active[n]
+            along = acceleration[i, 0] * s.u[i] + acceleration[i, 1] * s.v[i]
+            found += s.mass[i] * (along + (acceleration[i, 2] * s.w[i] if len(s.w) else 0.0))
+        part[k, 0] = found
+
+
 @parallel
 def add_load(s, borne, part):
     """part (P, 3): force [N] of the pressure on walls, of what they give the liquid, borne (N, 3) [m/s2]."""

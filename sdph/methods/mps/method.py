@@ -33,7 +33,7 @@ class MpsStepper:
     # see sdph.engine.kept
     KEPT = (
         "state", "neighbours", "time", "steps", "limit", "works", "impulses", "iterations", "clipped",
-        "openings", "load", "moved", "holes",
+        "openings", "load", "moved", "holes", "fallen", "drawn",
     )  # fmt: skip
     FORMS = {"state": GROWING}
     # what loops take from neighbours, fresh, of `state` and of what `_look` finds; the pressure is solved for by all
@@ -59,6 +59,7 @@ class MpsStepper:
         self.room, self.landed = arrays.Room(), None  # see sdph.engine.ashore
         self.time, self.steps, self.steps_before, self.limit = 0.0, 0, 0, ""
         self.works, self.impulses = np.zeros(len(WORKS)), np.zeros((2, 3))  # of gravity, of what waits
+        self.fallen = self.drawn = 0.0  # work [J] of weight and of tension over the ways that the liquid went
         self.iterations = 0  # of all steps
         self.clipped = 0.0  # pressure below 0 that was left out, of all steps: sum of Pa
         self.load = np.zeros(3)  # of the pressure on walls [N], in the last step
@@ -112,10 +113,12 @@ class MpsStepper:
         self._collide(active)
         if self.holes:
             self._kick("holes", self.holes.advance(self, dt), 1.0, active)
-        s = self.state
+        s, before = self.state, alone.energy_in_gravity(self, active)
+        self.drawn += alone.drawn(self, active, dt)
         motion.drift(active, s.u, s.v, s.w, dt, s.x, s.y, s.z)
         if self.pool:
             self._keep_apart(active)
+        self.fallen += before - alone.energy_in_gravity(self, active)
         if self.openings:
             self.openings.move(self.domain.own(s), self.time, dt)
         self.time += dt

@@ -1,8 +1,10 @@
 """The ledger of moving particles: mass, momentum and energy, and who gave and took them, one row a window.
 
 Energy of motion changes by the work of every kick, each integrated with it, and by what comes in and leaves. What
-tension takes from it goes into the cohesion of pairs, of which there is more as liquid comes in. Two-dimensional
-amounts are per metre of depth.
+tension takes from it goes into the cohesion of pairs, of which there is more as liquid comes in. The ledger closes by
+construction, as a pressure that does work is booked as one that may. What the scheme makes of nothing is
+`energy_made_J`: walls at rest do no work, and the pressure between them moves energy about. Two-dimensional amounts are
+per metre of depth.
 """
 
 from __future__ import annotations
@@ -19,13 +21,24 @@ from sdph.methods.mps.method import WORKS
 from sdph.methods.mps.openings import IN, OUT
 
 FLOWS = ("injected_kg", "injected_J", "left_kg", "left_J")
-AMOUNTS = (*(f"work_of_{name}_J" for name in WORKS), *FLOWS)
+AMOUNTS = (*(f"work_of_{name}_J" for name in WORKS), "fallen_J", "drawn_J", *FLOWS)
 
 
 class MpsLedger(Sums):
     """Keeps the sums of moving particles: what is there, and what came and went."""
 
-    KEPT = (*Sums.KEPT, "works", "impulses", "passed", "momentum", "moved")  # see sdph.engine.kept
+    KEPT = (
+        *Sums.KEPT,
+        "works",
+        "impulses",
+        "passed",
+        "momentum",
+        "moved",
+        "fallen",
+        "drawn",
+        "made",
+        "most",
+    )  # see sdph.engine.kept
     AMOUNTS = AMOUNTS
 
     def __init__(self, path: Path | None, alone: bool = False):
@@ -35,6 +48,8 @@ class MpsLedger(Sums):
         self.works, self.impulses, self.passed = np.zeros(len(WORKS)), np.zeros((2, 3)), np.zeros((2, 5))
         self.momentum = np.zeros(3)  # impulses since the start, and momentum in less that out [kg m/s]
         self.moved = 0.0  # the same without sign
+        # of the stepper, at the last row; most energy [J] beyond what came in, and most of motion
+        self.fallen = self.drawn = self.made = self.most = 0.0
 
     def open(self, stepper) -> None:
         """The row of the start."""
@@ -44,21 +59,32 @@ class MpsLedger(Sums):
         """The row of a window of `dt` [s]."""
         now, impulses, passed = totals(stepper), stepper.impulses - self.impulses, _passed(stepper) - self.passed
         amounts = {f"work_of_{name}_J": float(work) for name, work in zip(WORKS, stepper.works - self.works)}
+        amounts |= {"fallen_J": stepper.fallen - self.fallen, "drawn_J": stepper.drawn - self.drawn}
         amounts |= dict(zip(FLOWS, (passed[IN, 0], passed[IN, 4], passed[OUT, 0], passed[OUT, 4])))
         self.add(amounts)
         flows = np.concatenate((impulses, passed[IN : IN + 1, 1:4], -passed[OUT : OUT + 1, 1:4]))
         self.momentum = self.momentum + flows.sum(axis=0)
         self.moved += float(np.linalg.norm(flows, axis=1).sum())
         self._write(stepper, dt, now, impulses, amounts)
+        self.made = max(self.made, self._beyond())
+
+    def _beyond(self) -> float:
+        """Energy [J] of motion and in gravity that there is now beyond what there was and what came in. Tension and
+        holes work from outside: cohesion is of the lattice more than of its surface."""
+        gained = self.last["kinetic_energy_J"] - self.first["kinetic_energy_J"]
+        given = ("fallen_J", "drawn_J", "work_of_holes_J", "injected_J")
+        return float(gained - sum(self.sums[name] for name in given) + self.sums["left_J"])
 
     def _write(self, stepper, dt: float, now: dict, impulses, amounts: dict) -> None:
         row = {"time_s": stepper.time, "window_s": dt, "limit": stepper.limit} | now
         row |= vector("impulse_of_gravity", impulses[0]) | vector("impulse_of_pairs_with_inflow", impulses[1])
         self.works, self.impulses, self.passed = stepper.works.copy(), stepper.impulses.copy(), _passed(stepper)
+        self.fallen, self.drawn, self.most = stepper.fallen, stepper.drawn, max(self.most, now["kinetic_energy_J"])
         self.put(row, amounts)
 
     def summary(self) -> dict[str, float]:
-        """Closure of the run: mass, momentum and energy of motion, relative to what there was and what moved."""
+        """Closure of the run: mass, momentum and energy of motion, relative to what there was and what moved; what
+        the scheme made to the largest energy of motion."""
         first, last, sums = self.first, self.last, self.sums
         mass = last["mass_kg"] - first["mass_kg"] - sums["injected_kg"] + sums["left_kg"]
         works = sum(sums[f"work_of_{name}_J"] for name in WORKS)
@@ -72,6 +98,7 @@ class MpsLedger(Sums):
         return (
             sums
             | found
+            | {"energy_made_J": self.made, "energy_made_rel": ratio(self.made, self.most)}
             | both("mass_drift", "kg", abs(mass), whole)
             | both("momentum_drift", "kg_m_s", drift, self.moved + turned)
             | both("energy_drift", "J", abs(energy), scale)
