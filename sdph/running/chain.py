@@ -28,7 +28,7 @@ def made(case, folder: Path, run, resume, reporter):
     """The case with a table for each nozzle that records a run, which is run first, or gone on with (`run` and `resume`
     as in `sdph.running.driver`)."""
     nozzles, rows = dict(case.nozzles), []
-    for name, nozzle in case.nozzles.items():
+    for nth, (name, nozzle) in enumerate(case.nozzles.items()):
         if not nozzle.record or nozzle.table:
             continue
         recorded, done = inputs.recorded(f"nozzles.{name}", nozzle)
@@ -46,7 +46,7 @@ def made(case, folder: Path, run, resume, reporter):
         within = math.fsum(found["inner_J"][found["time_s"] > nozzle.table_from])
         tension = recorded.parameters.get("free_energy_tension")
         sigma = tension.coefficient if tension else 0.0
-        rows += [{"nozzle": name} | row for row in handed_over(case, nozzles[name], within, sigma)]
+        rows += [{"nozzle": name} | row for row in handed_over(case, nozzles[name], within, sigma, nth)]
     if rows:
         output.write_rows(folder / HANDOVER, rows)
     return dataclasses.replace(case, nozzles=nozzles)
@@ -73,15 +73,16 @@ def _write(recorded, found: dict[str, np.ndarray], target: Path) -> None:
     )
 
 
-def handed_over(case, nozzle, within: float, sigma: float = 0.0) -> list[dict]:
+def handed_over(case, nozzle, within: float, sigma: float = 0.0, nth: int = 0) -> list[dict]:
     """Rows of quantity, sum over the drops, sum over the particles that they become before they are scaled, what is
     lost by design, and the rest over the sum of sizes.
 
     Lost is motion within: `within` [J] the drops, and of drops within a particle against its mean; and all by which the
     sum of diameters differs: sizes whose number, surface and mass are right have another (swirl-sheet.md, 9). With a
     surface tension `sigma` [N/m] the energy of the surface of spheres is a row too.
+    The nozzle is the `nth` of the case.
     """
-    replay = drops.Replay(case, nozzle)
+    replay = drops.Replay(case, nozzle, nth)
     own, parcels = replay.drops, replay.parcels
     mass, q = parcels.mass / replay.scale, 1.0 + parcels.variance / parcels.diameter**2
     number = mass / (math.pi / 6.0 * case.grains.density * parcels.diameter**3 * q**3)

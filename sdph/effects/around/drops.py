@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sdph.effects.around.streams import frame_of
+from sdph.effects.around.streams import chance, frame_of
 from sdph.engine import state as particles
 from sdph.engine import table
 from sdph.engine.state import GRAIN
@@ -72,10 +72,11 @@ def read(path: str) -> Drops:
     return Drops(found["time_s"][order], place, velocity, found["mass_kg"][order], found["diameter_m"][order])
 
 
-def gathered(drops: Drops, interval: float, spacing: float, seed: int = 0) -> Parcels:
+def gathered(drops: Drops, interval: float, spacing: float, seed=0) -> Parcels:
     """One particle for the drops of each `interval` [s] and each square of `spacing` [m] across the axis.
 
-    The squares of each interval are turned by an angle of their own, or the particles would fly in strings.
+    The squares of each interval are turned by an angle of their own, drawn by a seed, a number or several, or the
+    particles would fly in strings.
 
     Mass, momentum, energy (with theta), number, surface and volume of the drops are those of the particles.
     """
@@ -102,19 +103,21 @@ def gathered(drops: Drops, interval: float, spacing: float, seed: int = 0) -> Pa
 
 
 class Replay:
-    """The table of a nozzle as it is played: `parcels` of one period [s], their masses scaled to the nozzle's rate."""
+    """The table of a nozzle, the `nth` of its case from 0, as it is played: `parcels` of one period [s], their masses
+    scaled to the nozzle's rate."""
 
-    def __init__(self, case, nozzle):
+    def __init__(self, case, nozzle, nth: int = 0):
         drops = read(nozzle.table)
         late = drops.time > nozzle.table_from
         if not late.any():
             raise CaseError(f"no drop of table = {nozzle.table!r} comes after table_from_s = {nozzle.table_from:g}")
         self.drops = Drops(*(part[late] for part in drops))
-        self.nozzle, self.spacing = nozzle, case.resolution.spacing
+        self.nozzle, self.nth, self.spacing = nozzle, nth, case.resolution.spacing
         self.period = float(self.drops.time[-1]) - nozzle.table_from
         self.scale = nozzle.rate * self.period / float(self.drops.mass.sum())
         self._refuse_other_density(case.grains.density)
-        parcels = gathered(self.drops, self.spacing / nozzle.speed, self.spacing, nozzle.seed)
+        seed = (nozzle.seed, 0, nth) if nth else nozzle.seed
+        parcels = gathered(self.drops, self.spacing / nozzle.speed, self.spacing, seed)
         self.parcels = parcels._replace(time=parcels.time - nozzle.table_from, mass=self.scale * parcels.mass)
 
     def _refuse_other_density(self, density: float) -> None:
@@ -153,7 +156,8 @@ class Replay:
 
     def _turn(self, period: int) -> np.ndarray:
         """(3, 3) by which a period is turned about the axis; the first is not."""
-        angle = np.random.default_rng((self.nozzle.seed, period)).uniform(0.0, 2.0 * math.pi) if period else 0.0
+        seed = (self.nozzle.seed, period, *chance(self.nth))
+        angle = np.random.default_rng(seed).uniform(0.0, 2.0 * math.pi) if period else 0.0
         return np.array([
             [math.cos(angle), -math.sin(angle), 0.0], [math.sin(angle), math.cos(angle), 0.0], [0.0, 0.0, 1.0]
         ])  # fmt: skip
@@ -165,7 +169,8 @@ class Replays:
     KEPT = ("given",)  # see sdph.engine.kept
 
     def __init__(self, case):
-        self.of = [Replay(case, n) if n.shape == "table" and n.table else None for n in case.nozzles.values()]
+        own = enumerate(case.nozzles.values())
+        self.of = [Replay(case, n, nth) if n.shape == "table" and n.table else None for nth, n in own]
         self.given = [0] * len(self.of)
 
     @property

@@ -118,7 +118,7 @@ class Source:
             if nozzle.shape == "annulus":
                 own, first = self.of[stream] == k, np.searchsorted(self.of, k)
                 points[own], velocity[own] = turned(
-                    nozzle, self.streams[k], stream[own] - first, layer[own], place[own]
+                    nozzle, self.streams[k], stream[own] - first, layer[own], place[own], k
                 )
         return particles.join(state, self._streamed(stream, layer, points, velocity))
 

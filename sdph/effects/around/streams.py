@@ -135,22 +135,28 @@ def _rings(nozzle, spacing: float) -> np.ndarray:
     return np.concatenate(rings)
 
 
-def turned(nozzle, own: Streams, stream, layer, place) -> tuple[np.ndarray, np.ndarray]:
+def turned(nozzle, own: Streams, stream, layer, place, nth: int = 0) -> tuple[np.ndarray, np.ndarray]:
     """Places (n, 3) [m] and velocities (n, 3) [m/s] of particles of an annulus in its streams (n,), layers (n,) and at
     places (n,) [m] along the axis.
 
-    Each layer is turned by an angle of its own, drawn by the seed, and strewn by JITTER; it comes along helices, so
-    that nothing slips at the mouth.
+    Each layer is turned by an angle of its own, drawn by the seed and by which of the nozzles it is, `nth` from 0, and
+    strewn by JITTER; it comes along helices, so that nothing slips at the mouth.
     """
     offsets = own.mouth[stream] - nozzle.centre
     angle = nozzle.swirl * place / np.linalg.norm(offsets, axis=1)
     aside = np.zeros_like(offsets)
     for number in np.unique(layer):
-        draw, rows = np.random.default_rng((nozzle.seed, int(number))), layer == number
+        draw, rows = np.random.default_rng((nozzle.seed, int(number), *chance(nth))), layer == number
         angle[rows] += draw.uniform(0.0, 2.0 * math.pi)
         aside[rows] = JITTER * own.pitch * draw.uniform(-1.0, 1.0, (len(own.mouth), 3))[stream[rows]]
     places = nozzle.centre + about(own.axis, offsets, angle) + aside + place[:, None] * own.axis
     return places, swirling(nozzle, own, places)
+
+
+def chance(nth: int) -> tuple[int, ...]:
+    """What makes the chance of a nozzle another than that of the nozzles before it with the same seed; nothing of the
+    first, from 0."""
+    return (nth,) if nth else ()
 
 
 def swirling(nozzle, own: Streams, places) -> np.ndarray:

@@ -142,7 +142,7 @@ class Mps(Stepped):
         ends = "were cut off the sheet one domain's length beyond its end: enlarge domain.size_m"
         left = ", ".join(self.case.method.left_out)
         told = f"left out, as moving particles do without it or cannot have it: {left}"
-        return [told] * bool(left) + [f"{cut} particles {ends}"] * bool(cut)
+        return [told] * bool(left) + [f"{cut} particles {ends}"] * bool(cut) + sheet.untold(self.case)
 
     def inside(self):
         """State of the liquid, of which each process has a part."""

@@ -91,8 +91,8 @@ def jump(place, label):
 
 
 def of(state, label, case) -> list[dict]:
-    """Particles, mass [kg], diameter [m], middle [m] and velocity [m/s] of each piece, label (N,), and the energy of
-    motion in it [J]."""
+    """Nozzle, particles, mass [kg], diameter [m], middle [m] and velocity [m/s] of each piece, label (N,), and the
+    energy of motion in it [J]."""
     _, own = np.unique(label, return_inverse=True)
     mass = np.bincount(own, weights=state.mass)
     places, velocities = particles.positions(state), particles.velocities(state)
@@ -102,14 +102,22 @@ def of(state, label, case) -> list[dict]:
     )
     inner = 0.5 * np.bincount(own, weights=state.mass * ((velocities - mean[own]) ** 2).sum(axis=1))
     size = diameter_of(mass / case.liquid.density, case.dimensions)
-    number = np.bincount(own)
+    number, nozzle = np.bincount(own), _nozzles(state, own, case)
     return [
-        {"particles": int(number[k]), "mass_kg": float(mass[k]), "diameter_m": float(size[k])}
+        {"nozzle": nozzle[k], "particles": int(number[k]), "mass_kg": float(mass[k]), "diameter_m": float(size[k])}
         | {f"{a}_m": float(value) for a, value in zip("xyz", middle[k])}
         | {f"velocity_{a}_m_s": float(value) for a, value in zip("xyz", mean[k])}
         | {"inner_J": float(inner[k])}
         for k in range(len(mass))
     ]
+
+
+def _nozzles(state, own, case) -> list[str]:
+    """Name of the nozzle that most of the mass of each piece is from, pieces own (N,); "" of what was there at the
+    start."""
+    names, found = ("", *case.nozzles), np.zeros((int(own.max(initial=-1)) + 1, len(case.nozzles) + 1))
+    np.add.at(found, (own, state.nozzle if len(state.nozzle) else 0), state.mass)
+    return [names[k] for k in found.argmax(axis=1)]
 
 
 def sauter(diameters) -> float:

@@ -24,6 +24,17 @@ def nozzle_of(case):
     return found[0] if len(found) == 1 and found[0].shape == "annulus" else None
 
 
+def untold(case) -> list[str]:
+    """A line where there are sheets that are not measured, as they are of several nozzles."""
+    many = len(case.nozzles)
+    if many == 1 or "annulus" not in [nozzle.shape for nozzle in case.nozzles.values()]:
+        return []
+    return [
+        f"half angle, break-up length and holes are about one axis: there are {many} nozzles, so that none of them is "
+        "told; run each nozzle alone for them (droplets.csv says which nozzle each drop is from)"
+    ]
+
+
 def about_axis(nozzle, places) -> np.ndarray:
     """(N, 3) places with z along the axis of a nozzle, from the middle of its mouth."""
     axis = np.asarray(nozzle.direction, float) / np.linalg.norm(nozzle.direction)

@@ -126,6 +126,17 @@ def test_played_again_it_is_turned_and_the_rate_holds(file):
     assert first.velocity[:, 2].max() < 0.0 and first.place[:, 2].max() < 0.15  # down, from the mouth on
 
 
+def test_a_table_of_another_nozzle_is_turned_otherwise(file):
+    """With the same seed, in squares and periods; the first nozzle's is as it is alone."""
+    case = case_of(file)
+    alone, first, second = (drops.Replay(case, case.nozzles["mouth"], *nth) for nth in ((), (0,), (1,)))
+    last = [replay.due(len(replay.parcels.time), 2.0 * replay.period).place for replay in (alone, first, second)]
+    np.testing.assert_array_equal(last[0], last[1])
+    assert np.abs(first._turn(1) - second._turn(1)).max() > 0.01
+    one, other = (replay.parcels.place for replay in (first, second))
+    assert one.shape != other.shape or np.abs(one - other).max() > 0.01
+
+
 @settings(max_examples=20, deadline=None, suppress_health_check=["function_scoped_fixture"])
 @given(st.lists(st.floats(0.0, 0.1), min_size=1, max_size=6), st.floats(0.0, 0.03))
 def test_in_parts_as_at_once(file, times, start):

@@ -112,7 +112,9 @@ def test_mass_momentum_and_energy_close_with_what_comes_in_and_leaves(short):
 def test_pieces_that_left_are_told_of_and_add_up(short):
 
     with open(short.folder / "droplets.csv", newline="", encoding="utf-8") as file:
-        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        told = list(csv.DictReader(file))
+    assert {row.pop("nozzle") for row in told} == {"mouth"}
+    rows = [{key: float(value) for key, value in row.items()} for row in told]
     own = short.summary
     assert len(rows) == own["droplets"] > 10 and own["cut_particles"] == 0
     assert sum(row["mass_kg"] for row in rows) == pytest.approx(own["left_kg"], rel=1e-12)
