@@ -16,7 +16,7 @@ import numpy as np
 
 from sdph.effects.around import drops
 from sdph.engine import table
-from sdph.methods.mps import sheet
+from sdph.methods.mps import pieces, sheet
 from sdph.running import inputs, output
 from sdph.schema import CaseError
 
@@ -41,9 +41,12 @@ def made(case, folder: Path, run, resume, reporter):
                 run(recorded, recorded.scene, done, None, reporter)
         target = folder / inputs.place(f"nozzles.{inputs.safe(name)}.table", Path(TABLE))
         found = _drops(done / inputs.DROPS)
+        played = found["time_s"] > nozzle.table_from
+        for line in pieces.coarse(found["diameter_m"][played], found["particles"][played]):
+            reporter.status(f"warning: drops that nozzles.{name} records: {line}")
         _write(recorded, found, target)
         nozzles[name] = dataclasses.replace(nozzle, table=os.path.abspath(target))
-        within = math.fsum(found["inner_J"][found["time_s"] > nozzle.table_from])
+        within = math.fsum(found["inner_J"][played])
         tension = recorded.parameters.get("free_energy_tension")
         sigma = tension.coefficient if tension else 0.0
         rows += [{"nozzle": name} | row for row in handed_over(case, nozzles[name], within, sigma, nth)]
@@ -55,7 +58,7 @@ def made(case, folder: Path, run, resume, reporter):
 def _drops(told: Path) -> dict[str, np.ndarray]:
     """Columns of the drops that a run told of."""
     try:
-        return table.numbers(told, (*drops.COLUMNS, "inner_J"))[1]
+        return table.numbers(told, (*drops.COLUMNS, "inner_J", "particles"))[1]
     except ValueError as error:
         raise CaseError(f"{told}: {error}; let the run go on until drops leave, by record_set run.end_time_s") from None
 

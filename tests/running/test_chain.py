@@ -2,6 +2,7 @@
 
 import csv
 import dataclasses
+import shutil
 import tomllib
 from pathlib import Path
 
@@ -12,7 +13,7 @@ import tomli_w
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.effects.around import drops
-from sdph.running import chain, driver, inputs
+from sdph.running import chain, driver, inputs, output
 from sdph.running.progress import Reporter
 from sdph.schema import CaseError
 
@@ -86,6 +87,16 @@ def test_a_run_that_is_named_is_taken_as_it_is(sheet, tmp_path):
     # the folder's own case has the table and runs without the sheet
     driver.run(again, "swirl_spray", tmp_path / "again", None, Reporter())
     assert (tmp_path / "again" / "ledger.csv").read_bytes() == (tmp_path / "run" / "ledger.csv").read_bytes()
+
+
+@pytest.mark.parametrize(("many", "told"), [(9, True), (10, False)])
+def test_drops_whose_sizes_are_of_the_spacing_are_told_of(sheet, tmp_path, many, told, capsys):
+    """All of fewer than ten particles, and all of ten."""
+    shutil.copytree(sheet, tmp_path / "sheet")
+    found = rows(sheet / "droplets.csv")
+    output.write_rows(tmp_path / "sheet" / "droplets.csv", [row | {"particles": many} for row in found])
+    chain.made(spray(tmp_path / "sheet"), tmp_path / "run", None, None, Reporter())
+    assert ("unresolved_mass_share = 1: more than half" in capsys.readouterr().err) == told
 
 
 def test_what_was_cut_while_it_recorded_goes_on(sheet, tmp_path, monkeypatch):

@@ -17,9 +17,8 @@ from sdph.engine.table import Table
 from sdph.methods.mps import aboard, alone, history, pieces, sheet
 from sdph.methods.mps.instants import Instants
 from sdph.methods.mps.method import MpsStepper
+from sdph.methods.mps.pieces import RESOLVED
 from sdph.methods.mps.totals import MpsLedger
-
-RESOLVED = 10  # particles of a piece whose size is told by more than one spacing; swirl-sheet.md, section 7
 
 
 class Mps(Stepped):
@@ -142,7 +141,8 @@ class Mps(Stepped):
         ends = "were cut off the sheet one domain's length beyond its end: enlarge domain.size_m"
         left = ", ".join(self.case.method.left_out)
         told = f"left out, as moving particles do without it or cannot have it: {left}"
-        return [told] * bool(left) + [f"{cut} particles {ends}"] * bool(cut) + sheet.untold(self.case)
+        found = [told] * bool(left) + [f"{cut} particles {ends}"] * bool(cut) + sheet.untold(self.case)
+        return found + pieces.coarse(self.diameters, self.counts)
 
     def inside(self):
         """State of the liquid, of which each process has a part."""

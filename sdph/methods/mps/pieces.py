@@ -14,6 +14,11 @@ from sdph.engine.rows import entry
 from sdph.laws.compiled import parallel
 from sdph.laws.sheets import diameter_of
 
+RESOLVED = 10  # particles of a piece whose size is told by more than one spacing; swirl-sheet.md, section 7
+# of the mass of all drops, that may be in smaller ones: beyond it the median by volume is that of drops whose size is
+# the spacing's, and so are the mean that has the largest drops in it and all quantiles below; our choice
+COARSE = 0.5
+
 
 def labels(domain, state, rows, distance: float, period=(OPEN, OPEN, OPEN)) -> tuple[np.ndarray, int]:
     """Number (n,) of the piece of each of the particles in `rows` (n,), own ones and copies, and how many pieces there
@@ -139,15 +144,32 @@ def percentile(diameters, share: float) -> float:
     return float(d[np.searchsorted(np.cumsum(d**3), share * (d**3).sum())])
 
 
+def unresolved(diameters, whole) -> float:
+    """Share of the mass of drops of diameters (n,) [m] that is in those that are not `whole` (n,)."""
+    volume = diameters**3
+    return 1.0 - float(volume[whole].sum() / volume.sum())
+
+
+def coarse(diameters, counts) -> list[str]:
+    """A line where drops of diameters (n,) [m] and of so many particles (n,) have sizes of the spacing."""
+    share = unresolved(diameters, counts >= RESOLVED) if len(diameters) else 0.0
+    if share <= COARSE:
+        return []
+    return [
+        f"unresolved_mass_share = {share:.2g}: more than half of the liquid that left is in drops of fewer than "
+        f"{RESOLVED} particles, whose sizes are of the spacing and not of the liquid; a finer resolution.spacing_mm "
+        "changes them"
+    ]
+
+
 def sizes(diameters, whole) -> dict[str, float]:
     """Summary of drops of diameters (n,) [m], `whole` (n,) where they are resolved: D10, D32 and the percentiles of
     volume of all, D32 of those that are resolved, and the share of the mass that is not."""
     if not len(diameters):
         return {}
     found = {"sauter_mean_diameter_m": sauter(diameters[whole])} if whole.any() else {}
-    volume = diameters**3
     return found | {
-        "unresolved_mass_share": 1.0 - float(volume[whole].sum() / volume.sum()),
+        "unresolved_mass_share": unresolved(diameters, whole),
         "sauter_mean_diameter_of_all_m": sauter(diameters), "mean_diameter_of_all_m": mean(diameters),
         **{f"volume_{n}_percent_below_m": percentile(diameters, n / 100.0) for n in (10, 50, 90)},
     }  # fmt: skip

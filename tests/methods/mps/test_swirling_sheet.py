@@ -15,6 +15,7 @@ from sdph.engine.domain import WHOLE
 from sdph.engine.state import INFLOW, LIQUID
 from sdph.methods.mps import openings, pieces, sheet
 from sdph.methods.mps.method import MpsStepper
+from sdph.methods.mps.mps import Mps
 from sdph.methods.mps.scales import scales_of
 from sdph.running import driver
 from sdph.running.progress import Reporter
@@ -202,6 +203,16 @@ def test_sizes_of_drops():
     assert told["unresolved_mass_share"] == pytest.approx(1.0 / 36.0)  # 1 of 1 + 8 + 27
     assert told["sauter_mean_diameter_m"] == pytest.approx(35.0 / 13.0 * 5e-5)
     assert told["volume_10_percent_below_m"] == 1e-4 and told["volume_50_percent_below_m"] == 1.5e-4
+
+
+@pytest.mark.parametrize(("counts", "lines"), [([9, 9, 10], 0), ([10, 10, 9], 1), ([], 0)])
+def test_sizes_that_are_of_the_spacing_are_warned_of(counts, lines):
+    """1 + 8 of 36 parts of the mass, or 27, in drops of fewer than ten particles."""
+    own = Mps(sheet_of(), None, 0.0)
+    own.counts = np.array(counts, float)
+    own.diameters = np.array([5e-5, 1e-4, 1.5e-4])[: len(counts)]
+    told = [line for line in own.warnings() if "unresolved_mass_share" in line]
+    assert len(told) == lines and all("= 0.75:" in line and "spacing_mm" in line for line in told)
 
 
 def test_break_up_of_straight_flight_hangs_on_the_spacing():
