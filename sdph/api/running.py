@@ -14,7 +14,7 @@ import numpy as np
 from sdph.api import launch
 from sdph.api.case import Case
 from sdph.api.results import Run, arrays, cells, load
-from sdph.running import driver, output
+from sdph.running import compiling, driver, output
 from sdph.running.progress import Reporter
 from sdph.show import timeline
 
@@ -102,14 +102,18 @@ class Stepping(Iterator[Window]):
 
 
 class Voice(Reporter):
-    """Reporter that hands warnings to Python's own; what else there is to say it says on stderr where `loud`."""
+    """Reporter that hands warnings to Python's own; what else there is to say it says on stderr where `loud`, and that
+    kernels are compiled always: minutes of silence look like a run that hangs."""
 
     def __init__(self, loud: bool) -> None:
         super().__init__(quiet=not loud)
+        self.waiting = Reporter(line=False)
 
     def status(self, text: str) -> None:
         if text.startswith("warning: "):
             warnings.warn(text.removeprefix("warning: "), UserWarning, stacklevel=2)
+        elif text == compiling.TEXT and self.quiet:
+            self.waiting.status(text)
         else:
             super().status(text)
 

@@ -1,7 +1,10 @@
 """`import sdph` as its users meet it: docs/python.md, cases, runs, windows, results."""
 
+import contextlib
 import inspect
+import os
 import re
+import signal
 import subprocess
 import sys
 
@@ -11,6 +14,8 @@ import pytest
 import sdph
 from sdph import cli
 from sdph.engine import restart
+from sdph.running import compiling
+from sdph.running.interruption import Stopped
 from sdph.scenes import paths
 
 ROOT = paths.PACKAGE.parent
@@ -183,3 +188,28 @@ def test_explain_is_what_the_command_says(case, capsys):
     found = sdph.explain(case)
     assert cli.main(["explain", "disc_cluster", *(f"--set={key}={value}" for key, value in SMALL.items())]) == 0
     assert str(found).strip() in capsys.readouterr().out and found.warnings == case.validate()
+
+
+def test_kernels_that_are_compiled_are_told_without_progress_too(case, tmp_path, monkeypatch, capsys):
+    """By a run whose compiling is told as soon as it starts; no other line is."""
+
+    @contextlib.contextmanager
+    def compiled(tell):
+        tell(compiling.TEXT)
+        tell("t = 1 s")
+        yield
+
+    monkeypatch.setattr(compiling, "told", compiled)
+    with sdph.stepping(case, gas="embedded", out=tmp_path / "run", until=0.002) as windows:
+        next(windows)
+    assert capsys.readouterr().err.splitlines() == [compiling.TEXT]
+
+
+def test_a_signal_in_a_loop_is_a_keyboard_interrupt_that_leaves_a_checkpoint(case, tmp_path):
+    seen = []
+    with pytest.raises(KeyboardInterrupt) as stopped:
+        for window in sdph.stepping(case, gas="embedded", out=tmp_path / "run", until=0.002):
+            seen.append(window.time)
+            os.kill(os.getpid(), signal.SIGINT)
+    assert isinstance(stopped.value, Stopped) and seen and seen[-1] < 0.002
+    assert sdph.resume(tmp_path / "run").finished
