@@ -15,8 +15,8 @@ BARS = {
     "motion_drift_rel": ROUND_OFF,
     "momentum_drift_rel": ROUND_OFF,
     "momentum_made_rel": NUMERICAL,  # of liquids: control of tension, corrected differences of moving particles
-    # of all that bubbles push: 2e-4 as a rule and while two merge (20 spacings in R), 0.085 where a part of a face was
-    # missed and a droplet flew off; as much as their pressure is known to; our choice
+    # of all that bubbles push: 1e-5 to 4e-4 in gel droplets, also while two merge, 0.009 where the face is that of a
+    # lattice without a shell, 0.085 where a part of the face was missed and a droplet flew off; our choice
     "bubble_impulse_rel": 0.01,
     "exchange_mass_mismatch_rel": ROUND_OFF,
     "exchange_energy_mismatch_rel": ROUND_OFF,
