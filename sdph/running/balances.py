@@ -83,12 +83,15 @@ def missed(summary: dict) -> list[str]:
 
 def _remedy(name: str, summary: dict) -> str:
     if name == "numerical_work_rel" and at_rest(summary):
-        lost, there = summary["dissipated_J"], summary[AT_HAND]
-        return (
-            f"that is of {lost:.2g} J, all that was dissipated, and next to nothing of the {there:.2g} J that could "
-            "fall or did work: the liquid is nearly at rest, and there is little to relate it to; it counts where "
-            "motion that small is what you look for"
-        )
+        return _little(summary["dissipated_J"], summary[AT_HAND])
     if name.endswith("numerical_work_rel"):
         return "shorter steps (run.step_factor below 1) lower what explicit steps do"
     return REMEDIES.get(name, "something was made or lost; docs/results.md says what the column counts")
+
+
+def _little(lost: float, there: float) -> str:
+    return (
+        f"that is of {lost:.2g} J, all that was dissipated, and next to nothing of the {there:.2g} J that could "
+        "fall or did work: the liquid is nearly at rest, and there is little to relate it to; it counts where motion "
+        "that small is what you look for"
+    )

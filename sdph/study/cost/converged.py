@@ -50,10 +50,8 @@ def limit(steps: list[float], values: list[float]) -> Limit:
         return Limit(values[-1], math.inf, math.nan, "fewer than two rungs have a number")
     if max(values[-3:]) == min(values[-3:]):
         return Limit(values[-1], 0.0, math.nan, "the finest rungs are alike")
-    if len(values) == 2:
-        return _ranged(steps, values, "two rungs have no order")
     if why := disorder(steps, values):
-        return _ranged(steps[-3:], values[-3:], why)._replace(swings=True)
+        return _ranged(steps[-3:], values[-3:], why)._replace(swings=len(values) > 2)
     steps, values = steps[-3:], values[-3:]
     p = believed(steps, (values[0] - values[1]) / (values[1] - values[2]))
     if math.isnan(p):
@@ -63,8 +61,10 @@ def limit(steps: list[float], values: list[float]) -> Limit:
 
 
 def disorder(steps: list[float], values: list[float]) -> str:
-    """Reason why no order can be fitted to three values or more, coarse to fine; empty where the changes between the
-    finest four have one sign and shrink, as those of an order above 0 do."""
+    """Reason why no order can be fitted to values, coarse to fine; empty where the changes between the finest four have
+    one sign and shrink, as those of an order above 0 do."""
+    if len(values) == 2:
+        return "two rungs have no order"
     for count in (3, 4)[: len(values) - 2]:
         told = f"the finest {NAMED[count]} rungs"
         first, second, *_ = (fine - coarse for coarse, fine in itertools.pairwise(values[-count:]))
