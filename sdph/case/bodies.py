@@ -69,6 +69,19 @@ def check_probe(case, where: str, probe) -> None:
         )
 
 
+def around(case, at) -> int | None:
+    """Number of the body, from 0, that a place (d,) [m] lies in at the start; None of a place in no body."""
+    return next((number for number, body in enumerate(case.bodies.values()) if _holds(body, np.array(at))), None)
+
+
+def _holds(body, at) -> bool:
+    if body.shape == "box":
+        return bool((at >= body.lower).all() and (at <= body.upper).all())
+    away = at - np.array(body.centre)
+    along = abs(away[2]) <= 0.5 * body.length if body.shape == "cylinder" else True
+    return bool(along and (body.inner_radius or 0.0) <= np.hypot(*away[:2]) <= body.radius)
+
+
 def nearest(points, at) -> tuple[int, float]:
     """Number of the point (N, d) [m] that is nearest to a place (d,) [m], and how far away it is [m]."""
     away = np.linalg.norm(points - np.array(at), axis=1)

@@ -69,6 +69,9 @@ def check(case: Case) -> None:
             raise CaseError(f"effects holds {name}, which does not act on {what}; leave it out")
     for matter in case.matters:
         _check_one(case.only(matter))
+    if case.liquid and case.solid:  # probes are of neither of the two alone
+        _check_components(case)
+        _check_probes(case)
     if "bubble" in case.effects:
         bubble.check_shell(case)
 
@@ -115,12 +118,17 @@ def _check_one(case: Case) -> None:
     for name, region in case.particles.items():
         _check_region(case, name, region)
     forces.check_parts(case)
-    for name, point in case.probes.items():
-        probe(case, f"probes.{name}", point)
+    _check_probes(case)
     for name, profile in case.profiles.items():
         slices.check(case, f"profiles.{name}", profile)
     for name, nozzle in case.nozzles.items():
         mouth(case, f"nozzles.{name}", nozzle)
+
+
+def _check_probes(case: Case) -> None:
+    """Probes lie where they may, and have columns of their own."""
+    for name, point in case.probes.items():
+        probe(case, f"probes.{name}", point)
     columns_of_history(case)
 
 

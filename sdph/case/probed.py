@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from sdph.case import bodies
 from sdph.methods.grains.history import carried
 from sdph.schema import CaseError
 
@@ -19,17 +20,24 @@ OF_SOLID = (*VECTORS, "equivalent_stress", "pressure", "density", "plastic_strai
 
 def fields(case, probe) -> dict[str, tuple[str, ...]]:
     """Fields that a probe follows, by whose they are: "particles", "gas"; without a choice the temperatures of grains
-    and gas, of a liquid its pressure and velocity, of bodies alone displacement and velocity."""
-    known = known_to(case)
-    usual = ("temperature",) if case.grains else ("pressure", "velocity") if case.liquid else VECTORS[::-1]
+    and gas, of a liquid its pressure and velocity, of bodies displacement and velocity."""
+    known = known_to(case, probe)
+    usual = VECTORS[::-1] if of_body(case, probe) else ("pressure", "velocity") if case.liquid else ()
+    usual = ("temperature",) if case.grains else usual
     chosen = probe.fields or usual
     return {whose: tuple(name for name in chosen if name in own) for whose, own in known.items()}
 
 
-def known_to(case) -> dict[str, tuple[str, ...]]:
-    """All fields that there are to follow in a case, by whose they are."""
+def of_body(case, probe) -> bool:
+    """True of a probe that goes along with a body: of bodies alone all do, beside a liquid those that lie in one at the
+    start."""
+    return case.solid is not None and (case.liquid is None or bodies.around(case, probe.at) is not None)
+
+
+def known_to(case, probe) -> dict[str, tuple[str, ...]]:
+    """All fields that there are to follow for a probe of a case, by whose they are."""
     if not case.grains:
-        return {"particles": OF_LIQUID if case.liquid else OF_SOLID}
+        return {"particles": OF_SOLID if of_body(case, probe) else OF_LIQUID}
     there = {"velocity", "density", "alpha_p", *carried(case)}
     gas = (*OF_GAS, "vapour_mass_fraction") if case.vapour else OF_GAS
     return {"particles": tuple(name for name in OF_GRAINS if name in there), "gas": gas}
@@ -59,7 +67,8 @@ def by_axis(name: str, dimensions: int) -> list[str]:
 
 def check(case, where: str, probe) -> None:
     """`CaseError` where a field is not known in the case."""
-    known = sorted({name for own in known_to(case).values() for name in own})
+    known = sorted({name for own in known_to(case, probe).values() for name in own})
+    here = "at this place" if case.liquid and case.solid else "in this case"
     for name in probe.fields:
         if name not in known:
-            raise CaseError(f"{where}.fields holds {name!r}; in this case there are: {', '.join(known)}")
+            raise CaseError(f"{where}.fields holds {name!r}; {here} there are: {', '.join(known)}")

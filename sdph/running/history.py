@@ -6,7 +6,7 @@ import numpy as np
 
 from coupling.transfer import gather
 from sdph.case import probed
-from sdph.case.bodies import nearest
+from sdph.case.bodies import around, nearest
 from sdph.case.sections import Probe
 from sdph.engine import state as particles
 from sdph.engine.geometry import OPEN, box_of, nearest_image
@@ -51,9 +51,12 @@ def probe(simulation, point, fields: tuple[str, ...] = ()) -> dict[str, float]:
 
 
 def of_liquid(case, cloud, world=ALONE) -> dict[str, float]:
-    """Columns of all probes in a liquid, of whose particles each process of a world has a cloud of pyvista."""
+    """Columns of all probes in a liquid that go along with no body; each process of a world has of its particles a
+    cloud of pyvista."""
     columns = {}
     for name, own in case.probes.items():
+        if probed.of_body(case, own):
+            continue
         there = cloud.n_points > 0  # pyvista knows no empty arrays
         chosen = probed.fields(case, own)["particles"]
         arrays = {
@@ -72,12 +75,17 @@ def of_liquid(case, cloud, world=ALONE) -> dict[str, float]:
 
 
 def of_solid(case, stepper) -> dict[str, float]:
-    """Columns of all probes in bodies: of the particle that was nearest at the start."""
+    """Columns of all probes in bodies: of the particle that was nearest at the start, of the body that each lies in or,
+    of bodies alone, beside."""
     columns, here = {}, particles.positions(stepper.state)
     told = solids.fields(stepper) | {"velocity": particles.velocities(stepper.state)}
     told["displacement"] = here - stepper.reference
     for name, own in case.probes.items():
-        i, _ = nearest(stepper.reference[:, : case.dimensions], own.at)
+        if not probed.of_body(case, own):
+            continue
+        body = around(case, own.at)
+        rows = np.flatnonzero((stepper.body == body) | (body is None))
+        i = rows[nearest(stepper.reference[rows, : case.dimensions], own.at)[0]]
         found = _named(case, "particles", {field: told[field][i] for field in probed.fields(case, own)["particles"]})
         columns |= {f"{name}_{key}": value for key, value in found.items()}
     return columns

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from sdph.engine.kept import Unfit
 from sdph.methods.liquids.liquid import Liquid
+from sdph.running import history
 from sdph.running.alone import Alone
 from sdph.running.wetted import Wetted
 
@@ -45,6 +46,10 @@ class Together(Alone):
 
     def row(self) -> dict[str, float]:
         return super().row() | _named(self.solids.row())
+
+    def _probes(self) -> dict[str, float]:
+        """Columns of the probes in the liquid, and of those that go along with a body."""
+        return super()._probes() | (history.of_solid(self.case, self.solids.stepper) if self.case.probes else {})
 
     def meshes(self) -> dict:
         return super().meshes() | {"solid": self.solids.points()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from sdph import effects
-from sdph.case import judge
+from sdph.case import bodies, judge, probed
 from sdph.effects.grains import conduction
 from sdph.laws.sound import FAST
 from sdph.methods.grains import start, ways
@@ -57,7 +57,19 @@ def explain(case, priced=None) -> dict[str, list[dict]]:
     for row in lockstep.contact_of(case):
         found["grains"]["limits"].append(row)
     told = {f"{part} ({matter})": rows for matter, parts in found.items() for part, rows in parts.items()}
+    told |= {"probes": _probes(case)} if case.solid and case.probes else {}
     return told | ({"stages": stages.rows(case)} if "time_scaling" in case.effects else {})
+
+
+def _probes(case) -> list[dict]:
+    """What each probe of a case of a liquid and bodies follows, and its columns of history.csv."""
+    rows = []
+    for name, probe in case.probes.items():
+        number = bodies.around(case, probe.at)
+        own = "" if number is None else f"the particle of bodies.{list(case.bodies)[number]} that is nearest to it"
+        row = {"probe": name, "follows": own or "the liquid at its place"}
+        rows.append(row | {"columns": ", ".join(f"{name}_{key}" for key in probed.columns(case, probe))})
+    return rows
 
 
 def _explain(case, priced, shared=None) -> dict[str, list[dict]]:
