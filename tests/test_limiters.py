@@ -55,6 +55,8 @@ HARMLESS = {
     "sdph/engine/ledger.py:Ledger._energy_drift": "what a drift is related to, for the summary alone",
     "sdph/methods/liquids/totals.py:LiquidLedger.*": "the largest so far",
     "sdph/methods/liquids/totals.py:fastest": "the largest of all",
+    "sdph/methods/mps/totals.py:MpsLedger.close_window": "the largest so far",
+    "sdph/methods/mps/totals.py:MpsLedger._write": "the largest so far",
     "sdph/methods/liquids/heat.py:Heat.summary": "what a drift is related to, the larger of two",
     "sdph/engine/walls/*": "geometry: distances, counts of points",
     "sdph/engine/polyline.py:*": "geometry: the nearest place of a segment",

@@ -154,8 +154,8 @@ def turned(nozzle, own: Streams, stream, layer, place, nth: int = 0) -> tuple[np
 
 
 def chance(nth: int) -> tuple[int, ...]:
-    """What makes the chance of a nozzle another than that of the nozzles before it with the same seed; nothing of the
-    first, from 0."""
+    """Numbers that make the chance of a nozzle, the `nth` from 0, another than that of those before it with the same
+    seed; none of the first."""
     return (nth,) if nth else ()
 
 

@@ -62,7 +62,7 @@ def explain(case, priced=None) -> dict[str, list[dict]]:
 
 
 def _probes(case) -> list[dict]:
-    """What each probe of a case of a liquid and bodies follows, and its columns of history.csv."""
+    """A row for each probe of a case of a liquid and bodies: what it follows, and its columns of history.csv."""
     rows = []
     for name, probe in case.probes.items():
         number = bodies.around(case, probe.at)
