@@ -21,6 +21,15 @@ def lame_ring(r, pressure: float, inner: float, outer: float, youngs: float, poi
     return share * (1.0 + outer**2 / r**2), (1.0 + poisson) / youngs * share * along
 
 
+def ring_period(
+    radius: float, thickness: float, youngs: float, poisson: float, density: float, inside: float = 0.0
+) -> float:
+    """T [s] of a thin ring that breathes, plane strain, with a mass by area [kg/m2] inside that moves along:
+    w^2 = E/(1 - nu^2) H/(R^2 (rho H + m)). Lengths [m], E [Pa], rho [kg/m3]; Love 1927, section 306."""
+    heavy = density * thickness + inside
+    return 2.0 * math.pi * radius * math.sqrt(heavy * (1.0 - poisson**2) / (youngs * thickness))
+
+
 def cantilever(along):
     """Deflection [-] of the first mode of a thin plate at x/L, 1 at the free end. Landau & Lifshitz, Theory of
     Elasticity, section 25."""

@@ -12,6 +12,7 @@ haze           whether grains hide each other as they radiate
 mach           how fast gas is by its sound
 pressed        whether grains begin denser than their weight holds them
 vessel         volume of a tank, and of what fills it
+gel            growth and tear of a gel droplet
 stages         effects of a gel droplet that grows, necks and has torn
 tables         all of it as tables
 effect_costs   time of each effect on this machine

@@ -14,6 +14,7 @@ from sdph.engine import state as particles
 from sdph.engine.contact import between
 from sdph.methods.grains import start
 from sdph.study.explain import liquids, solids
+from sdph.study.gel_droplet import foretold
 
 GROWN = 1.4  # D/D_0 at which a shell tears (Qiang et al. 2017; 1.35 to 1.47 in validation/gel_droplet)
 
@@ -48,14 +49,17 @@ def contact_of(case) -> list[dict]:
 
 
 def motion(case) -> float:
-    """Time [s] of the motion in a run: all of it, or of a hastened droplet, whose wall goes at the largest speed or
-    whose time at the largest pace, whichever is slower: until its shell is `GROWN` and tears, and what is left then.
-
-    A run that ends before the tear takes less, as nearly all of the way is run through shortly before."""
-    end = case.run.end_time
+    """Time [s] of the motion in a run: all of it, or of a hastened droplet, as the reduced model foretells it."""
     if "time_scaling" not in case.effects:
-        return end
-    p = time_scaling.kernel(case)
+        return case.run.end_time
+    course = foretold.of(case)
+    return _roughly(case) if isinstance(course, str) else foretold.motion(case, course)
+
+
+def _roughly(case) -> float:
+    """The same of a droplet that the reduced model does not know, whose wall goes at the largest speed or whose time at
+    the largest pace, whichever is slower: until its shell is `GROWN` and tears, and what is left then."""
+    p, end = time_scaling.kernel(case), case.run.end_time
     (shell,) = [body for body in case.bodies.values() if body.shape == "ring"]
     inner = math.sqrt(shell.inner_radius**2 + (GROWN**2 - 1.0) * shell.radius**2)  # its section keeps its area
     return min(end, (inner - shell.inner_radius) / p.cap + end / p.largest + p.after_tear)

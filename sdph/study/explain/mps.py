@@ -90,7 +90,7 @@ def relative_motion(s) -> float:
 def expected(s, steps: list[dict]) -> list[dict]:
     """Particles, steps, memory, wall time."""
     waiting = sum(feed.mouth(s.case, n) for n in s.case.nozzles.values())
-    fed = sum(feed.mouth(s.case, n) * feed.way(s.case, n) for n in s.case.nozzles.values()) / s.case.resolution.spacing
+    fed = sum(feed.mouth(s.case, n) * _way(s.case, n) for n in s.case.nozzles.values()) / s.case.resolution.spacing
     fed /= s.case.resolution.spacing ** (s.case.dimensions - 1)
     count = len(s.state.x) + fed + 4.0 * waiting / s.case.resolution.spacing ** (s.case.dimensions - 1)
     longest = min((row["largest [s]"] for row in steps), default=s.end)
@@ -102,3 +102,15 @@ def expected(s, steps: list[dict]) -> list[dict]:
         {"what": "memory", "value": estimate.memory(s.case, count, 0) / 1e6, "unit": "MB"},
         {"what": "wall time", "value": wall, "unit": f"s (measured on {prices.speed().measured})"},
     ]
+
+
+def _way(case, nozzle) -> float:
+    """Way [m] along the axis of a nozzle of what it feeds: to the side of the domain that it meets, where there is
+    outflow, or as far as it goes in the run."""
+    ends = [
+        ((high if along > 0.0 else low) - at) / along
+        for at, along, low, high in zip(nozzle.centre, nozzle.direction, case.domain.corner, case.domain.upper)
+        if along
+    ]
+    through = min(ends) * math.hypot(*nozzle.direction) if "outflow" in case.effects else math.inf
+    return min(feed.way(case, nozzle), through)

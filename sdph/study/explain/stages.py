@@ -12,8 +12,7 @@ import math
 import numpy as np
 
 from sdph.effects.liquids import time_scaling
-from sdph.schema import CaseError
-from sdph.study.gel_droplet import checks
+from sdph.study.gel_droplet import foretold
 
 SOFTER, CAPILLARY = 0.03, 0.01  # T*^m, sigma/(R p) from which they matter: gel-droplet.md, section 2
 
@@ -21,16 +20,9 @@ SOFTER, CAPILLARY = 0.03, 0.01  # T*^m, sigma/(R p) from which they matter: gel-
 def rows(case) -> list[dict]:
     """Rows of the table of a case with time scaling, its largest bubble alone; one row that says why where the reduced
     model has no such droplet."""
-    if (
-        case.solid.yield_stress is None
-        or not case.solid.failure
-        or not ({"gel"} <= case.pools.keys() and {"shell"} <= case.bodies.keys())
-    ):
-        return [{"effect": "none", "why": "no pool gel in a body shell that yields and fails: nothing necks"}]
-    try:
-        course = checks.reduced(case)
-    except CaseError as error:
-        return [{"effect": "none", "why": str(error)}]
+    course = foretold.of(case)
+    if isinstance(course, str):
+        return [{"effect": "none", "why": course}]
     if course.tear is None:
         return [{"effect": "none", "why": "the droplet without particles does not tear"}]
     top = int(np.argmax(course.history["pressure_Pa"][: course.tear + 1]))

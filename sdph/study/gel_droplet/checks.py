@@ -5,6 +5,8 @@ Bars are of issue 20 and of gel-droplet.md, sections 5 and 6.
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 
 from sdph import schema
@@ -13,6 +15,9 @@ from sdph.schema import CaseError
 from sdph.study.compare import check
 from sdph.study.gel_droplet import sections
 from sdph.study.gel_droplet.course import Course
+
+WITHIN = 5.0  # s, for which a droplet is followed at least, and 1 ms its longest step: numerics of `sections`
+STEPS = 5000  # in a run that is longer than that; as many as `WITHIN` has
 
 TIME = 0.05
 TEAR = 1.35, 1.47  # D/D0 of a flaw of 7 %
@@ -39,7 +44,16 @@ def reduced(case) -> Course:
         "gel.heat_capacity_J_kg_K": heat.heat_capacity, "gel.conductivity_W_m_K": heat.conductivity,
     } | {f"vapour.{key}": getattr(bubble, at) for key, (at, _) in schema.fields(gel.Fuel).items()}  # fmt: skip
     given |= {"heating.place": heat.heated, "shell.failure": own.failure[:4]}
-    return Course(sections.load(None, tuple(f"{key}={_word(value)}" for key, value in given.items())))
+    if case.run.end_time > WITHIN:
+        end = case.run.end_time
+        given |= {"numerics.end_time_s": end, "numerics.longest_step_ms": 1e3 * end / STEPS}
+    return _course(sections.load(None, tuple(f"{key}={_word(value)}" for key, value in given.items())))
+
+
+@functools.lru_cache(maxsize=1)
+def _course(own: sections.Droplet) -> Course:
+    """The course of a droplet; kept, as many rows of `sdph explain` are of the same."""
+    return Course(own)
 
 
 def _word(value) -> str:
