@@ -153,7 +153,8 @@ def _droplet(commands) -> None:
     """Command of the reduced model of a gel droplet."""
     droplet = _command(commands, "droplet", "one gel droplet without particles: growth, neck, tear, vent")
     droplet.add_argument("file", nargs="?", type=Path, help="TOML file with its keys (default: the base case)")
-    droplet.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key of the file")
+    words = "override a key of the file; heating.place is rim or inside"
+    droplet.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help=words)
     droplet.add_argument("--out", type=Path, help="folder of table and picture (default: runs/droplet, numbered)")
     droplet.add_argument("--json", action="store_true", help="print the summary as JSON")
 

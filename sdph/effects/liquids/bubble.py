@@ -60,8 +60,12 @@ def pool_of(case):
         raise CaseError(f"bubbles are in a case of one pool; pools hold {', '.join(case.pools)}: leave the others out")
     if own.centres or own.radii:
         return _disc_of(case, own)
+    if own.centre is None:
+        raise CaseError(
+            'no bubbles: give bubble.centres_m and radii_m, in a pool of shape "disc", or bubble.centre_m, of a "ring"'
+        )
     for pool in case.pools.values():
-        if pool.shape == "ring" and own.centre is not None and tuple(pool.centre) == tuple(own.centre):
+        if pool.shape == "ring" and tuple(pool.centre) == tuple(own.centre):
             return pool
     raise CaseError(f'bubble.centre_m = {own.centre}; it must be that of a pool of shape "ring", whose hole it is')
 

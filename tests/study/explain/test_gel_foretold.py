@@ -7,6 +7,7 @@ import pytest
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.laws import solids
+from sdph.schema import CaseError
 from sdph.study.explain import gel, lockstep
 from sdph.study.gel_droplet import foretold
 
@@ -68,6 +69,13 @@ def test_a_ring_breathes_at_the_speed_of_sound_around_it():
     assert alone == pytest.approx(2.0 * math.pi * 0.05 / math.sqrt(70e9 / (2700.0 * (1.0 - 0.33**2))))
     loaded = solids.ring_period(0.05, 0.005, 70e9, 0.33, 2700.0, 2700.0 * 0.005)
     assert loaded == pytest.approx(math.sqrt(2.0) * alone)
+
+
+def test_a_case_without_bubbles_is_told_so():
+    table = cases.to_table(load(scene="gel_droplet_three"))
+    table["bubble"] |= {"centres_m": [], "radii_m": []}
+    with pytest.raises(CaseError, match="no bubbles: give bubble.centres_m"):
+        cases.from_table(table)
 
 
 def test_growth_is_told_from_a_tenth_of_it_on():
