@@ -91,7 +91,7 @@ def kernel(case) -> ShiftingP:
 
 
 def filled(case) -> float:
-    """Share of the tank, or of the domain, that pools of both phases fill, at most 1; what overlaps counts twice."""
+    """Share of the tank, or of the domain, that pools of both phases fill; what overlaps counts twice."""
     d, given = case.dimensions, case.domain.size
     room = float(tank.shape_of(case).volume) if "tank" in case.effects else math.prod(given)
     round_ = math.pi * (4.0 / 3.0 if d == 3 else 1.0)
@@ -103,7 +103,7 @@ def filled(case) -> float:
             total += math.prod(b - a for a, b in zip(pool.lower, pool.upper))
         else:
             total += round_ * (pool.radius**d - (pool.inner_radius or 0.0) ** d)
-    return min(1.0, deepest + total / room)
+    return deepest + total / room
 
 
 @serial

@@ -294,7 +294,7 @@ class LiquidStepper:
         s, before = self.state, np.array(motion.momentum(self.state, self.active))
         eased = shift.displace(
             self.p["shifting"], self.fluids, s, self.active, self.shift, self.gradient, self.twist, self.compliance,
-            self.p["gravity"], dt, s.x, s.y, s.z, s.u, s.v, s.w, s.density,
+            (self.p["gravity"], dt), s.x, s.y, s.z, s.u, s.v, s.w, s.density,
         )  # fmt: skip
         given = self.world.sum(np.array([*(motion.momentum(s, self.active) - before), *eased]))
         self.shifted, self.eased = self.shifted + given[:3], self.eased + given[3:]

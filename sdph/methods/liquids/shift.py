@@ -123,14 +123,15 @@ def sees_surface(kernel, s, rows, box, i, volume, enclosure):
 
 
 @parallel
-def displace(p, fluids, s, active, shift, gradient, twist, compliance, gravity_p, dt, x, y, z, u, v, w, density):
+def displace(p, fluids, s, active, shift, gradient, twist, compliance, fall, x, y, z, u, v, w, density):
     """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow.
 
     Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance
-    (K,) is d rho/dp [s2/m2] by kind. Returns the energy [J] of motion and compression that this
+    (K,) is d rho/dp [s2/m2] by kind, `fall` gravity and dt [s]. Returns the energy [J] of motion and compression that this
     takes, and that in gravity which it gives; x ... density are those of s once more, as outputs.
     """
     lost = lifted = 0.0
+    gravity_p, dt = fall
     gx, gy, gz = gravity.acceleration(gravity_p)
     for n in prange(len(active)):
         i, kind = active[n], s.kind[active[n]]
