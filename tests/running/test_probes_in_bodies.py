@@ -62,7 +62,8 @@ def test_a_probe_outside_the_domain_is_refused_beside_bodies_too():
 
 
 @pytest.mark.parametrize(("place", "field", "there"), [
-    ("[0.125, 0.29]", "alpha_p", "damage, density, displacement"), ("[0.05, 0.1]", "displacement", "density, level, pressure"),
+    ("[0.125, 0.29]", "alpha_p", "damage, density, displacement"),
+    ("[0.05, 0.1]", "displacement", "density, level, pressure"),
 ])  # fmt: skip
 def test_a_field_that_is_not_where_a_probe_lies_is_refused(place, field, there):
     with pytest.raises(CaseError, match=f"{field}'; at this place there are: {there}"):

@@ -95,15 +95,13 @@ def filled(case) -> float:
     d, given = case.dimensions, case.domain.size
     room = float(tank.shape_of(case).volume) if "tank" in case.effects else math.prod(given)
     round_ = math.pi * (4.0 / 3.0 if d == 3 else 1.0)
-    deepest, total = 0.0, 0.0
+    total = 0.0
     for pool in case.pools.values():
-        if pool.shape == "tank":
-            deepest = max(deepest, pool.fill)
-        elif pool.shape == "box":
+        if pool.shape == "box":
             total += math.prod(b - a for a, b in zip(pool.lower, pool.upper))
-        else:
+        elif pool.shape != "tank":
             total += round_ * (pool.radius**d - (pool.inner_radius or 0.0) ** d)
-    return deepest + total / room
+    return total / room + max((pool.fill for pool in case.pools.values() if pool.shape == "tank"), default=0.0)
 
 
 @serial

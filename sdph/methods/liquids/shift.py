@@ -127,8 +127,8 @@ def displace(p, fluids, s, active, shift, gradient, twist, compliance, fall, x, 
     """r -= dt D sum V_j (1 + R (W/W0)^4) grad W, no faster than the parameters allow.
 
     Velocity and density are taken along their gradients, so that moving a particle does not move the field; compliance
-    (K,) is d rho/dp [s2/m2] by kind, `fall` gravity and dt [s]. Returns the energy [J] of motion and compression that this
-    takes, and that in gravity which it gives; x ... density are those of s once more, as outputs.
+    (K,) is d rho/dp [s2/m2] by kind, `fall` gravity and dt [s]. Returns the energy [J] of motion and compression that
+    this takes, and that in gravity which it gives; x ... density are those of s once more, as outputs.
     """
     lost = lifted = 0.0
     gravity_p, dt = fall
