@@ -111,7 +111,7 @@ def run(options) -> int:
             template = driver.template_of(case, name, file)
             for warning in launch.looked_at(case, template, allow_code=options.allow_code):
                 reporter.status(f"warning: {warning}")
-            for line in (*fluids.told(case), *gel.told(case)):
+            for line in (*fluids.told(case), *(() if several else gel.told(case))):  # gel is not shared
                 reporter.status(line)
             folder = options.out or output.free_name(Path("runs") / name)
             if several:
