@@ -74,7 +74,7 @@ def test_a_ring_breathes_at_the_speed_of_sound_around_it():
 def test_a_case_without_bubbles_is_told_so():
     table = cases.to_table(load(scene="gel_droplet_three"))
     table["bubble"] |= {"centres_m": [], "radii_m": []}
-    with pytest.raises(CaseError, match="no bubbles: give bubble.centres_m"):
+    with pytest.raises(CaseError, match="no bubbles: give bubble.centre_m"):
         cases.from_table(table)
 
 
