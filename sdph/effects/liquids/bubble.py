@@ -62,7 +62,7 @@ def pool_of(case):
         return _disc_of(case, own)
     if own.centre is None:
         raise CaseError(
-            'no bubbles: give bubble.centre_m, that of a pool of shape "ring", or bubble.centres_m and radii_m, in a disc'
+            'no bubbles: give bubble.centre_m, that of a pool of shape "ring", or bubble.centres_m and radii_m in discs'
         )
     for pool in case.pools.values():
         if pool.shape == "ring" and tuple(pool.centre) == tuple(own.centre):
