@@ -85,7 +85,6 @@ def run(options) -> int:
     from sdph.running.progress import Reporter
     from sdph.show import watch
     from sdph.study.cost import choice
-    from sdph.study.explain import gel
 
     overrides, here = tuple(options.set) + _overrides(options), world.here()
     several = options.ranks and options.ranks > 1
@@ -111,7 +110,7 @@ def run(options) -> int:
             template = driver.template_of(case, name, file)
             for warning in launch.looked_at(case, template, allow_code=options.allow_code):
                 reporter.status(f"warning: {warning}")
-            for line in (*fluids.told(case), *(() if several else gel.told(case))):  # gel is not shared
+            for line in fluids.told(case):
                 reporter.status(line)
             folder = options.out or output.free_name(Path("runs") / name)
             if several:

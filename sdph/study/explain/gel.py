@@ -70,11 +70,6 @@ def fuel(bubble) -> str:
     return f"the case's own fuel, {bubble.molar_mass:g} kg/kmol (keys of [bubble])"
 
 
-def told(case) -> list[str]:
-    """A line of a run that names the fuel."""
-    return [f"fuel of the bubbles: {fuel(case.parameters['bubble'])}"] if foretold.heated(case) else []
-
-
 def warnings(case) -> list[str]:
     """Lines where outputs miss the growth, or pressure compresses the gel."""
     course = foretold.of(case) if foretold.heated(case) else ""

@@ -240,7 +240,9 @@ def _judged(hard: Hard, measures, stopped: str) -> list:
     if stopped:
         return [("stopped with a reason", 1.0, "<= 0", False)]
     values = measures.values()
-    most = {name: bound for name, bound in (ALWAYS | hard.at_most).items() if name in values}
+    # what moving particles make in pools is a known miss of `validate` (docs/theory/mps.md), not of stability
+    idle = {"energy_made_rel"} - hard.at_most.keys() if measures.case.incompressible else set()
+    most = {name: bound for name, bound in (ALWAYS | hard.at_most).items() if name in values and name not in idle}
     rows = [(name, values[name], f"<= {bound:g}", values[name] <= bound) for name, bound in most.items()]
     rows += [(name, values[name], f">= {least:g}", values[name] >= least) for name, least in hard.at_least.items()]
     for name in hard.at_most.keys() - values.keys():
