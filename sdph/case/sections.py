@@ -26,9 +26,8 @@ class Run:
     step_factor: float = quantity("", 1.0, least=1e-6, most=1e3)  # sub-steps over the largest that the effects allow
     # error that is allowed: decides `effects = "auto"` and warnings
     accuracy: float = quantity("", 0.01, above=0.0, most=1.0)
-    average_from: float = quantity(
-        "s", 0.0, least=0.0
-    )  # means of the summary and profiles are over the time since then
+    # means of the summary and profiles are over the time since then
+    average_from: float = quantity("s", 0.0, least=0.0)
     report_at: tuple = vector("s", ())  # times that a window ends at, so that history.csv has them
     metrics: tuple = words(())  # of sdph.running.metrics, for metrics.csv and the summary
     forces: tuple = words(())  # names of sdph.case.forces, on which history.csv and the summary have forces

@@ -10,7 +10,7 @@ from sdph.engine.world import here
 from sdph.methods.liquids.liquid import Liquid
 from sdph.methods.mps.mps import Mps
 from sdph.methods.solids.solid import Solids
-from sdph.running import balances, compiling, forces, history
+from sdph.running import compiling, forces, history
 from sdph.running.limiters import Limiters
 
 STRIDE = 20  # steps in a window at most: one that goes unstable is caught within these (our choice)
@@ -130,8 +130,6 @@ class Alone:
     def summary(self, out) -> dict[str, float]:
         """summary.json, its own part."""
         own = self.method.summary() | forces.summary(self.methods)
-        if isinstance(self.method, Liquid):
-            own |= {balances.AT_HAND: self.ledger.scale["J"]}
         return {"sub_steps": self.method.steps} | own | self.limiters.summary()
 
     def warnings(self) -> list[str]:

@@ -3,6 +3,8 @@ tells which it missed."""
 
 from __future__ import annotations
 
+from sdph.methods.liquids.totals import AT_HAND
+
 ROUND_OFF = 1e-10  # of what is there, moved or exchanged; with nothing to relate to, kg, J or kg m/s
 NUMERICAL = 0.02  # of the physical dissipation: work of explicit steps; bar of our choice
 BARS = {
@@ -25,7 +27,6 @@ BARS = {
     "numerical_work_rel": NUMERICAL,
     "energy_missing_rel": 0.01,  # of solids: gel-droplet.md, section 5, energy
 }
-AT_HAND = "energy_at_hand_J"  # of a liquid: what it would set free if it fell to its lowest place, and work to and fro
 SEEN = 1e-3  # of the energy at hand: less than that dissipated, a liquid hardly moves; our choice, as of motion_drift
 # of the impulses of the gas: faces balance its momentum and cells hold it, which is the same in boxes alone, and to
 # first order in a window where mass of cells changes (docs/theory/gas.md). A run tells it, no scene is held to it; our

@@ -178,7 +178,7 @@ def _outlets(case, side: str, axis: int, places) -> np.ndarray:
 
 
 def outlets_of(case, side: str) -> list:
-    """(name, boundary) of the pressure outlets on a side."""
+    """(name, boundary) of what lets grains out on a side."""
     return [(name, b) for name, b in case.boundaries.items() if b.side == side and b.lets_out]
 
 

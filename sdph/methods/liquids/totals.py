@@ -45,6 +45,8 @@ LOSSES = (*CAUSES, "tension_control_J", "held_off_J", "shifting_J")
 PASSED = ("drained_kg", "drained_J", "injected_kg", "injected_J", "left_kg", "left_J", "boiled_kg", "boiled_J")
 AMOUNTS = (*PASSED, *WORKS, *LOSSES, "shifting_lift_J", "dissipated_J", "numerical_work_J", "numerical_tension_J")
 
+AT_HAND = "energy_at_hand_J"  # what the liquid would set free if it fell to its lowest place, and work to and fro
+
 
 class LiquidLedger(Sums):
     """Keeps the sums of a liquid: what is there, and what came and went."""
@@ -106,6 +108,7 @@ class LiquidLedger(Sums):
                 **both("momentum_drift", "kg_m_s", drift, self.scale["kg_m_s"] + inertia),
                 "momentum_made_rel": ratio(made, self.scale["kg_m_s"] + inertia),
                 "energy_made_J": self.made,
+                AT_HAND: self.scale["J"],
                 "energy_made_rel": ratio(self.made, self.moved),
                 "numerical_work_rel": ratio(abs(self.sums["numerical_work_J"]), abs(self.sums["dissipated_J"])),
                 "fastest_over_sound": self.mach,

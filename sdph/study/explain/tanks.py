@@ -45,7 +45,8 @@ def _of_motion(case) -> list[str]:
     own = case.parameters.get("frame")
     if own is None or not own.table or own.end is None:
         return []
-    *_, before, last = table.numbers(Path(own.table), frame.COLUMNS)[1]["time_s"].tolist()
+    times = table.numbers(Path(own.table), frame.COLUMNS)[1]["time_s"].tolist()
+    before, last = times[-2:][0], times[-1]  # of one row the same
     if own.end > own.start + before:
         return []
     return [

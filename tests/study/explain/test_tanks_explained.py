@@ -49,3 +49,9 @@ def test_rows_of_a_motion_that_are_dropped_are_told_of(tmp_path, end, fine):
     found = told(end=end, folder=tmp_path)
     assert len(found) == (not fine)
     assert fine or f"rows after {end - 0.5:g} s of the table are dropped" in found[0]
+
+
+def test_a_table_of_one_row_ends_with_it(tmp_path):
+    assert told(end=0.6, rows=(0.0,), folder=tmp_path) == []
+    (line,) = told(end=0.6, rows=(1.0,), folder=tmp_path)
+    assert "frame.start_s + 1 = 1.5 s" in line
