@@ -6,6 +6,7 @@ import pytest
 import sdph
 from sdph.case import read as cases
 from sdph.running import averages, metrics, output
+from sdph.study import report
 
 LENGTH, HEIGHT, WIDTH, SPEED, SHARE, FROM = 0.4, 0.1, 0.04, 5.0, 0.001, 0.1
 GIVEN = {
