@@ -1,10 +1,13 @@
 """Means of a run are over the time from which they are taken; profiles are those of flows that are known."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import sdph
 from sdph.case import read as cases
+from sdph.methods.grains.history import Warmed
 from sdph.running import averages, metrics, output
 from sdph.study import report
 
@@ -138,3 +141,13 @@ def test_a_run_that_begins_again_leaves_no_profile_of_before(tmp_path):
 def test_particles_of_materials_have_columns_of_their_own():
     grains, _ = averages.summed(cases.load(sdph.scenes.find("segregation")[1]))
     assert [name for name in grains if name.endswith("_volume")] == ["small_volume", "large_volume"]
+
+
+def test_heat_of_walls_is_averaged_from_then_on_too():
+    """A wall that gives 8 J in the first second and 2 J in the next: 2 W from the first second on, 5 W of both."""
+    hot = SimpleNamespace(names=("tube",), owners=np.eye(1), areas=np.array([2.0]))
+    for start, power in ((1.0, 2.0), (0.0, 5.0)):
+        own = Warmed(hot, start)
+        own.add(np.array([[8.0, 1.0]]), 0.0, 1.0)
+        own.add(np.array([[2.0, 1.0]]), 1.0, 2.0)
+        assert own.summary()["mean_tube_grain_heat_W"] == power and own.row()["tube_grain_heat_W"] == 2.0
