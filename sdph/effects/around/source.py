@@ -254,9 +254,9 @@ class Source:
             for array, column in zip((state.u, state.v, state.w), velocity.T):
                 array[rows[own]] = column
         state.kind[rows] = self.inside_kind
+        self._count(particles.take(state, rows))
         if len(state.entered):
             state.entered[rows] = self.now
-        self._count(particles.take(state, rows))
 
     def _count(self, out) -> None:
         """Count what has come in."""
