@@ -7,78 +7,25 @@ are often given in numbers without units: theirs are judged where `_in_units` sa
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
 from sdph.case import fluids
+from sdph.case.ranges import CELSIUS, DENSE, OF_DENSE, OF_LIQUIDS, RATIOS, USUAL, Range
 from sdph.case.read import to_table
 from sdph.effects.around import sizes
 from sdph.effects.gas import film
-from sdph.laws import size_classes
+from sdph.effects.solids import inflation
+from sdph.laws import size_classes, solids
 from sdph.laws.constants import GAS_CONSTANT
 from sdph.schema import CaseError
 
-CELSIUS, CONDUCTIVITY = "degrees Celsius", "conductivity_W_m_K"
+CONDUCTIVITY = "conductivity_W_m_K"
 AGAIN = 0.8, 1.25  # of the level of the pressure: an outlet there is likely given absolute; our choice
 UNLIKE = 0.1  # of the density that a gas has by its equation of state: vapour in it changes it by less; our choice
 MOSTLY = 0.5  # of the mass of drops: with more of it cut away, sizes are those of the bound; our choice
 OTHER = 0.02  # of a number of a fluid: what differs by less is another source's, or another temperature's; our choice
-
-
-class Range(NamedTuple):
-    """Least and most of a key, in its unit; what lies there; and units that are given by mistake, with their factor."""
-
-    least: float
-    most: float
-    what: str
-    slips: tuple = ()
-
-
-OF_GRAINS = Range(5.0, 25000.0, "from foam to gold", (("g/cm3", 1e3),))
-TEMPERATURE = Range(100.0, 5000.0, "from where air is about to liquefy to where all is vapour", ((CELSIUS, 273.15),))
-CAPACITY = Range(100.0, 20000.0, "from xenon to hydrogen", (("kJ/(kg K)", 1e3),))
-MOLAR = Range(2.0, 2000.0, "from hydrogen to a polymer", (("kg/mol", 1e3),))
-TENSION = Range(1e-5, 5.0, "from near the critical point to molten metal", (("mN/m", 1e-3),))
-SPEED = Range(1e-6, 3000.0, "from creep to a rocket's exhaust", (("mm/s", 1e-3),))
-# pattern of a key -> its range; * is a name. Our choice: a factor of two or more beyond what tables of matter hold
-USUAL = {
-    "domain.gravity_m_s2": Range(1e-7, 200.0, "from a free fall in orbit to a fast turn", (("mm/s2", 1e-3),)),
-    "gas.temperature_K": TEMPERATURE, "particles.*.temperature_K": TEMPERATURE, "nozzles.*.temperature_K": TEMPERATURE,
-    "boundaries.*.temperature_K": TEMPERATURE, "parts.*.temperature_K": TEMPERATURE,
-    "evaporation.onset_temperature_K": TEMPERATURE, "evaporation.boiling_temperature_K": TEMPERATURE,
-    "evaporation.saturation_temperature_K": TEMPERATURE,
-    "gas.density_kg_m3": Range(1e-4, 500.0, "from a vacuum pump to carbon dioxide at 200 bar",
-                               (("g/cm3", 1e3), ("g/m3", 1e-3))),
-    "gas.viscosity_Pa_s": Range(1e-6, 5e-4, "from vapours to gas at 10 000 K",
-                                (("mPa s", 1e-3), ("uPa s", 1e-6))),
-    "gas.conductivity_W_m_K": Range(1e-3, 5.0, "from vapours to hydrogen at 3000 K", (("mW/(m K)", 1e-3),)),
-    "gas.heat_capacity_J_kg_K": CAPACITY, "vapour.heat_capacity_J_kg_K": CAPACITY,
-    "grains.heat_capacity_J_kg_K": CAPACITY, "grains.*.heat_capacity_J_kg_K": CAPACITY,
-    "gas.molar_mass_kg_kmol": MOLAR, "vapour.molar_mass_kg_kmol": MOLAR,
-    "gas.operating_pressure_Pa": Range(500.0, 1e9, "from a drying vacuum to a gun", (("bar", 1e5), ("kPa", 1e3))),
-    "vapour.viscosity_Pa_s": Range(1e-6, 5e-4, "from vapours to gas at 10 000 K", (("mPa s", 1e-3), ("uPa s", 1e-6))),
-    "vapour.conductivity_W_m_K": Range(1e-3, 5.0, "from vapours to hydrogen at 3000 K", (("mW/(m K)", 1e-3),)),
-    "vapour.diffusivity_m2_s": Range(1e-9, 0.02, "from gas at 1000 bar to hydrogen in near vacuum",
-                                     (("cm2/s", 1e-4), ("mm2/s", 1e-6))),
-    "evaporation.latent_heat_J_kg": Range(1e4, 1e8, "from helium to metals", (("kJ/kg", 1e3),)),
-    "grains.density_kg_m3": OF_GRAINS, "grains.*.density_kg_m3": OF_GRAINS,
-    "grains.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
-    "grains.*.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
-    "nozzles.*.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
-    "grains.surface_tension_N_m": TENSION,
-    "nozzles.*.speed_m_s": SPEED, "boundaries.*.velocity_m_s": SPEED, "particles.*.velocity_m_s": SPEED,
-    "solid.youngs_modulus_Pa": Range(10.0, 5e12, "from jelly to diamond", (("GPa", 1e9), ("MPa", 1e6))),
-}  # fmt: skip
 EARTH = 9.7, 9.9  # m/s2, of gravity wherever there are people
-# the same of liquids and solids, in cases with units
-OF_LIQUIDS = {
-    "liquid.density_kg_m3": Range(50.0, 25000.0, "from liquid hydrogen to molten metal", (("g/cm3", 1e3),)),
-    "solid.density_kg_m3": Range(5.0, 25000.0, "from foam to gold", (("g/cm3", 1e3),)),
-    "gas_phase.density_kg_m3": Range(0.01, 25000.0, "from thin gas to molten metal", (("g/cm3", 1e3),)),
-    "surface_tension.coefficient_N_m": TENSION, "free_energy_tension.coefficient_N_m": TENSION,
-    "bubble.surface_tension_N_m": TENSION,
-}  # fmt: skip
 
 
 def _in_units(case) -> bool:
@@ -99,6 +46,8 @@ def _ranges(case) -> dict[str, Range]:
         if own := getattr(case, section):
             slips = ("m2/s", own.density), ("mPa s", 1e-3), ("uPa s", 1e-6)
             found |= {f"{section}.viscosity_Pa_s": Range(least, 1e4, "from liquid helium, or gas, to lava", slips)}
+    if case.solid and case.solid.density > DENSE:
+        found["solid.youngs_modulus_Pa"] = OF_DENSE
     return found
 
 
@@ -112,10 +61,46 @@ def warnings(case) -> list[str]:
             if size and not usual.least < size < usual.most:
                 bounds = f"{usual.least:g} to {usual.most:g} ({usual.what})"
                 told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
-    told = told or _unlike_its_state(case)  # a slip explains a density too
+    told = told or _ratios(table) or _unlike_its_state(case)  # a slip explains a density too
     told += _absolute(case) + _wider_than_their_mouth(case) + _cut_away(case) + _never_followed(case)
-    told += _never_open(case)
+    told += _never_open(case) + _bursting(case)
     return told + _hotter_than_their_film(case, table) + _overruled(table)
+
+
+def _ratios(table: dict) -> list[str]:
+    """A line for each number that is 0 in no case and far from usual beside another one."""
+    told = []
+    for (key, other), usual in RATIOS.items():
+        pairs = [dict(_found(table, name.split("."))).get(name) for name in (key, other)]
+        if all(pairs) and not usual.least < (ratio := pairs[0] / pairs[1]) < usual.most:
+            meant = [
+                f"if {unit} was meant, give {one} = {value * factor:g}"
+                for unit, factor in usual.slips
+                for one, value, moved in ((key, pairs[0], ratio * factor), (other, pairs[1], ratio / factor))
+                if usual.least < moved < usual.most
+            ]
+            told.append(
+                f"{key} = {pairs[0]:g} is {ratio:.3g} of {other} = {pairs[1]:g}; usual is {usual.least:g} to "
+                f"{usual.most:g} ({usual.what}); " + ("; ".join(meant) or "look at the units of both")
+            )
+    return told
+
+
+def _bursting(case) -> list[str]:
+    """A line where an elastic ring bears no such pressure: it grows until the run ends. A blast may mean that."""
+    body, solid = inflation.pressed(case), case.solid
+    if body is None:
+        return []
+    own = case.parameters["inflation"]
+    thick = body.radius - body.inner_radius
+    most = solids.ring_pressure(body.radius - 0.5 * thick, thick, solid.youngs_modulus, solid.poisson_ratio)
+    if own.pressure <= most:
+        return []
+    return [
+        f"inflation.pressure_Pa = {own.pressure:g} is more than the ring bears at any size, about {most:.3g} Pa with "
+        f"solid.youngs_modulus_Pa = {solid.youngs_modulus:g}: it grows until it fails or the run ends; look at the "
+        "units of both, unless a blast is meant"
+    ]
 
 
 def _unlike_its_state(case) -> list[str]:

@@ -61,6 +61,15 @@ def kernel(case) -> InflationP:
     return InflationP(0.0, own.rise_time, own.growth, own.bulk_modulus, 2.0 * body.radius)
 
 
+def pressed(case):
+    """The ring that a pressure that is given loads; None without any, and where `kernel` refuses the body."""
+    own = case.parameters.get("inflation")
+    if "inflation" not in case.effects or own.by != "pressure":
+        return None
+    body = case.bodies.get(own.body)
+    return body if body is not None and body.shape == "ring" else None
+
+
 def pressure(p: InflationP, time: float, area: float, first: float) -> float:
     """Pressure [Pa] inside at `time` [s], with a cavity of `area` [m2], at the start `first` [m2]."""
     share = time / p.rise_time if time < p.rise_time else 1.0

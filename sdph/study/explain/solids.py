@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 
+from sdph.effects.solids import inflation
+from sdph.laws import solids as laws
 from sdph.methods.solids import method, start
+from sdph.study.compare import scene_module
 from sdph.study.explain import estimate, prices
 
 LAYERS = 4.0  # particles across a body: a ring of four gives Lame's stress within 3 % (gel-droplet.md, section 5)
@@ -36,7 +39,34 @@ def numbers(s) -> list[tuple]:
             ("rho c v/Y", stress / own.yield_stress, 1.0, "impact makes the body flow", "Johnson 1972"),
             ("Y/E", own.yield_stress / own.youngs_modulus, 0.01, "elastic strain is large", "by its definition"),
         ]
+    if (rise := _rise(s)) is not None:
+        rows.append(("rise of the load / ring's period", rise, 1.0, "the ring follows the load at rest", "Love 1927"))
     return rows
+
+
+def _rise(s) -> float | None:
+    """Time in which the pressure in a ring rises over the period with which the ring breathes; None without one."""
+    body, solid = inflation.pressed(s.case), s.solid
+    if body is None:
+        return None
+    thick = body.radius - body.inner_radius
+    middle, rise = body.radius - 0.5 * thick, s.case.parameters["inflation"].rise_time
+    return rise / laws.ring_period(middle, thick, solid.youngs_modulus, solid.poisson_ratio, solid.density)
+
+
+def _swings(s) -> list[str]:
+    """A line where a load rises too quickly for what the scene's checks take: a ring at rest."""
+    rise = _rise(s)
+    if rise is None or not hasattr(scene_module(s.case.scene), "exact"):
+        return []
+    if (swing := min(1.0, laws.ring_swing(rise, 1.0))) <= s.case.run.accuracy:
+        return []
+    given = s.case.parameters["inflation"].rise_time
+    return [
+        f"inflation.rise_time_s = {given:g} is {rise:.3g} periods of the ring's breathing: it goes on to swing by up "
+        f"to {100.0 * swing:.3g} % of the load, and --against exact takes it to be at rest; let the load rise more "
+        "slowly"
+    ]
 
 
 def ratios(s) -> list[dict]:
@@ -69,11 +99,15 @@ def warnings(s) -> list[str]:
             f"a body's own weight is {sag:.3g} times what squeezes it to nothing (rho g L/E): it collapses; raise "
             f"solid.youngs_modulus_Pa (now {own.youngs_modulus:g})"
         )
-    return told + [
-        f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:.3g} to {r['most']:g}: {r['why']}"
-        for r in ratios(s)
-        if r["safe"] == "NO"
-    ]
+    return (
+        told
+        + [
+            f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:.3g} to {r['most']:g}: {r['why']}"
+            for r in ratios(s)
+            if r["safe"] == "NO"
+        ]
+        + _swings(s)
+    )
 
 
 def limits(s) -> list[dict]:
