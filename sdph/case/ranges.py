@@ -25,6 +25,7 @@ CAPACITY = Range(100.0, 20000.0, "from xenon to hydrogen", (("kJ/(kg K)", 1e3),)
 MOLAR = Range(2.0, 2000.0, "from hydrogen to a polymer", (("kg/mol", 1e3),))
 TENSION = Range(1e-5, 5.0, "from near the critical point to molten metal", (("mN/m", 1e-3),))
 SPEED = Range(1e-6, 3000.0, "from creep to a rocket's exhaust", (("mm/s", 1e-3),))
+PRESSURE = Range(500.0, 1e9, "from a drying vacuum to a gun", (("bar", 1e5), ("kPa", 1e3)))
 OF_STIFFNESS = ("GPa", 1e9), ("MPa", 1e6)
 MODULUS = Range(10.0, 5e12, "from jelly to diamond", OF_STIFFNESS)
 # pattern of a key -> its range; * is a name. Our choice: a factor of two or more beyond what tables of matter hold
@@ -42,7 +43,7 @@ USUAL = {
     "gas.heat_capacity_J_kg_K": CAPACITY, "vapour.heat_capacity_J_kg_K": CAPACITY,
     "grains.heat_capacity_J_kg_K": CAPACITY, "grains.*.heat_capacity_J_kg_K": CAPACITY,
     "gas.molar_mass_kg_kmol": MOLAR, "vapour.molar_mass_kg_kmol": MOLAR,
-    "gas.operating_pressure_Pa": Range(500.0, 1e9, "from a drying vacuum to a gun", (("bar", 1e5), ("kPa", 1e3))),
+    "gas.operating_pressure_Pa": PRESSURE,
     "vapour.viscosity_Pa_s": Range(1e-6, 5e-4, "from vapours to gas at 10 000 K", (("mPa s", 1e-3), ("uPa s", 1e-6))),
     "vapour.conductivity_W_m_K": Range(1e-3, 5.0, "from vapours to hydrogen at 3000 K", (("mW/(m K)", 1e-3),)),
     "vapour.diffusivity_m2_s": Range(1e-9, 0.02, "from gas at 1000 bar to hydrogen in near vacuum",
@@ -63,8 +64,10 @@ OF_LIQUIDS = {
     "solid.density_kg_m3": Range(5.0, 25000.0, "from foam to gold", (("g/cm3", 1e3),)),
     "gas_phase.density_kg_m3": Range(0.01, 25000.0, "from thin gas to molten metal", (("g/cm3", 1e3),)),
     "surface_tension.coefficient_N_m": TENSION, "free_energy_tension.coefficient_N_m": TENSION,
-    "bubble.surface_tension_N_m": TENSION,
+    "bubble.surface_tension_N_m": TENSION, "bubble.around_Pa": PRESSURE,
 }  # fmt: skip
+# keys of `sdph droplet`
+OF_DROPLET = {"droplet.ambient_pressure_Pa": PRESSURE, "shell.youngs_modulus_Pa": MODULUS}
 # What is denser is metal, mineral, ceramic (from 1 GPa on), PTFE (0.4 GPa) or rubber filled with them (from about 1 MPa
 # on), while steel in MPa is 2e5: our choice. Lighter matter may be jelly, and its modulus in MPa is not seen
 DENSE = 2000.0  # kg/m3

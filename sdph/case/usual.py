@@ -54,17 +54,23 @@ def _ranges(case) -> dict[str, Range]:
 def warnings(case) -> list[str]:
     """A line for each value of a case that is 0 in no component and far outside of its range: what was given, the
     range, and the unit that was likely meant; and for numbers that are not those of a fluid that is named."""
-    table, told = to_table(case), []
-    for pattern, usual in _ranges(case).items():
+    table = to_table(case)
+    told = far(table, _ranges(case)) or _ratios(table) or _unlike_its_state(case)  # a slip explains a density too
+    told += _absolute(case) + _wider_than_their_mouth(case) + _cut_away(case) + _never_followed(case)
+    told += _never_open(case) + _bursting(case)
+    return told + _hotter_than_their_film(case, table) + _overruled(table)
+
+
+def far(table: dict, ranges: dict[str, Range]) -> list[str]:
+    """The first of these of the numbers of a table, by ranges of its keys."""
+    told = []
+    for pattern, usual in ranges.items():
         for key, value in _found(table, pattern.split(".")):
             size = float(np.linalg.norm(value))
             if size and not usual.least < size < usual.most:
                 bounds = f"{usual.least:g} to {usual.most:g} ({usual.what})"
                 told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
-    told = told or _ratios(table) or _unlike_its_state(case)  # a slip explains a density too
-    told += _absolute(case) + _wider_than_their_mouth(case) + _cut_away(case) + _never_followed(case)
-    told += _never_open(case) + _bursting(case)
-    return told + _hotter_than_their_film(case, table) + _overruled(table)
+    return told
 
 
 def _ratios(table: dict) -> list[str]:

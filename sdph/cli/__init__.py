@@ -219,7 +219,7 @@ def gel_droplet(options) -> int:
     from sdph.running import output
     from sdph.study.gel_droplet import course, sections
 
-    found = course.Course(sections.load(options.file, tuple(options.set)))
+    found = course.Course(sections.judged(sections.load(options.file, tuple(options.set)), _say))
     folder = options.out or output.free_name(Path("runs") / "droplet")
     course.write(found, folder)
     text = f"{_table(found.summary)}\n{course.told_of_pressures(found)}\nfolder: {folder}"

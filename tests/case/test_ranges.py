@@ -39,6 +39,13 @@ def test_strengths_are_judged_by_the_modulus(scene, override, meant):
     assert lines and all(key in line and " of " in line for line in lines) and meant in lines[0]
 
 
+@pytest.mark.parametrize(("given", "meant"), [("1.0", "100000"), ("10", "1e+06")])
+def test_a_surrounding_pressure_in_bar_is_told(given, meant):
+    (line,) = told("gel_droplet", f"bubble.around_Pa={given}")
+    assert line.startswith("bubble.around_Pa = ") and f"if bar was meant, give {meant}" in line
+    assert told("gel_droplet", "bubble.around_Pa=1e4") == []
+
+
 def test_the_bulk_modulus_that_drives_a_ring_is_judged():
     driven = 'inflation.by="growth"', "inflation.pressure_Pa=0", "inflation.growth_1_s=1000"
     (line,) = told("thick_ring", *driven, "inflation.bulk_modulus_Pa=2200")

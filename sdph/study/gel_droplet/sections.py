@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
 from sdph.case import read as cases
+from sdph.case import usual
+from sdph.case.ranges import OF_DROPLET
 from sdph.effects.gas import gel
-from sdph.schema import CaseError, choice, plausible, quantity, read, record, unknown, whole
+from sdph.schema import CaseError, choice, plausible, quantity, read, record, unknown, whole, write
 
 
 @record
@@ -89,6 +92,13 @@ def of_table(table: dict) -> Droplet:
     own = Droplet(*(plausible(read(cls, table.get(name, {}), name), name) for name, cls in CLASSES.items()))
     _refuse_shape(own.droplet)
     gel.refuse_above_critical(own.vapour, own.droplet.ambient_pressure, "droplet.ambient_pressure_Pa")
+    return own
+
+
+def judged(own: Droplet, say: Callable[[str], None]) -> Droplet:
+    """The same droplet; numbers far from usual are said."""
+    for line in usual.far({name: write(getattr(own, name)) for name in CLASSES}, OF_DROPLET):
+        say(f"warning: {line}")
     return own
 
 

@@ -120,6 +120,29 @@ def test_pressures_are_told_to_be_gauge(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("override", "told"),
     [
+        ("droplet.ambient_pressure_Pa=10", "if bar was meant, give 1e+06"),
+        ("shell.youngs_modulus_Pa=9.9", "if MPa was meant, give 9.9e+06"),
+        ("droplet.ambient_pressure_Pa=101325", ""),
+    ],
+)
+def test_slips_of_a_unit_are_said(override, told):
+    said = []
+    own = sections.load(None, (override,))
+    assert sections.judged(own, said.append) == own
+    assert len(said) == bool(told) and all(line.startswith(f"warning: {override[:10]}") for line in said)
+    assert all(told in line for line in said)
+
+
+def test_the_command_says_them(tmp_path, capsys):
+    given = ("droplet.ambient_pressure_Pa=10", "numerics.end_time_s=1e-3")
+    words = [word for one in given for word in ("--set", one)]
+    assert cli.main(["droplet", *words, "--out", str(tmp_path / "out")]) == 0
+    assert "warning: droplet.ambient_pressure_Pa = 10 is far from usual" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("override", "told"),
+    [
         ("shell.flaw=1", "at most 0.99"),
         ("shel.flaw=0.1", "did you mean shell?"),
         ("droplet.dimensions=4", "2 (a cylinder) or 3"),
