@@ -79,17 +79,23 @@ def _ratios(table: dict) -> list[str]:
     for (key, other), usual in RATIOS.items():
         pairs = [dict(_found(table, name.split("."))).get(name) for name in (key, other)]
         if all(pairs) and not usual.least < (ratio := pairs[0] / pairs[1]) < usual.most:
-            meant = [
-                f"if {unit} was meant, give {one} = {value * factor:g}"
-                for unit, factor in usual.slips
-                for one, value, moved in ((key, pairs[0], ratio * factor), (other, pairs[1], ratio / factor))
-                if usual.least < moved < usual.most
-            ]
             told.append(
                 f"{key} = {pairs[0]:g} is {ratio:.3g} of {other} = {pairs[1]:g}; usual is {usual.least:g} to "
-                f"{usual.most:g} ({usual.what}); " + ("; ".join(meant) or "look at the units of both")
+                f"{usual.most:g} ({usual.what}); {_meant_of_both(key, other, pairs, usual)}"
             )
     return told
+
+
+def _meant_of_both(key: str, other: str, values: list[float], usual: Range) -> str:
+    """Units by which one of two values brings their ratio into its range."""
+    ratio = values[0] / values[1]
+    meant = [
+        f"if {unit} was meant, give {one} = {value * factor:g}"
+        for unit, factor in usual.slips
+        for one, value, moved in ((key, values[0], ratio * factor), (other, values[1], ratio / factor))
+        if usual.least < moved < usual.most
+    ]
+    return "; ".join(meant) or "look at the units of both"
 
 
 def _bursting(case) -> list[str]:

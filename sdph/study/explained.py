@@ -7,7 +7,7 @@ from pathlib import Path
 from sdph.case import fluids, forces, usual
 from sdph.effects.solids import rigid_sides
 from sdph.study import against, closed_vessels, gas_keys, inlets, rehearsal
-from sdph.study.explain import gel, materials, tables, vessel
+from sdph.study.explain import gel, lockstep, materials, tables, vessel
 
 
 def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, list[dict]]:
@@ -36,4 +36,4 @@ def _of_case(case, mesh) -> list[str]:
     """Warnings of a case with all its matters."""
     of_gas = [*gas_keys.warnings(case), *gas_keys.unseen(case, mesh), *inlets.warnings(case, mesh)]
     of_gas += closed_vessels.warnings(case, mesh)
-    return [*of_gas, *usual.warnings(case), *rigid_sides.warnings(case), *gel.warnings(case)]
+    return [*of_gas, *usual.warnings(case), *rigid_sides.warnings(case), *gel.warnings(case), *lockstep.warnings(case)]

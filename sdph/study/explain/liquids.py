@@ -16,7 +16,7 @@ from sdph.methods.liquids import bodies, filling
 from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
 from sdph.schema import CaseError
-from sdph.study.explain import estimate, feed, prices, tanks
+from sdph.study.explain import estimate, feed, prices, ruling, tanks
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
 SAME = 1e-6  # of a spacing: round-off of corners
@@ -114,10 +114,7 @@ def warnings(s) -> list[str]:
         if r["safe"] == "NO"
     ]
     c = s.liquid.sound_speed
-    fastest = max(s.speed, pulled(s))
-    if fastest > SLOW * c:
-        fast = f"the liquid may reach {fastest:.3g} m/s, {fastest / c:.2g} of its speed of sound"
-        unsafe.append(f"{fast}: raise liquid.sound_speed_m_s from {c:g} to {10.0 * fastest:.3g}")
+    unsafe += [*_too_fast(s), *ruling.warnings(s.case, s.end, limits(s))]
     layer, around = s.layer * s.length, s.case.parameters.get("tank")
     if around and around.shape == "box" and around.outlet_radius and s.pull[0] + s.shaken and _pipe_empty(s):
         unsafe.append(
@@ -149,6 +146,21 @@ def warnings(s) -> list[str]:
             f"and loads meanwhile are not those of a drain; {PIPES.get((around.shape, s.case.dimensions), PIPE)}"
         )
     return unsafe + tanks.warnings(s.case)
+
+
+def _too_fast(s) -> list[str]:
+    """A line where the liquid is faster than its sound was chosen for, and what faster sound costs."""
+    c, fastest = s.liquid.sound_speed, max(s.speed, pulled(s))
+    if fastest <= SLOW * c:
+        return []
+    fast = f"the liquid may reach {fastest:.3g} m/s, {fastest / c:.2g} of its speed of sound"
+    wanted = f"raise liquid.sound_speed_m_s from {c:g} to {10.0 * fastest:.3g}"
+    return [f"{fast}: {wanted}, which lets a step be {step_of_sound(s.case, fastest):.2g} s long"]
+
+
+def step_of_sound(case, speed: float) -> float:
+    """Longest step [s] of a liquid with a speed [m/s] and sound ten times as fast."""
+    return case.liquid.courant * case.smoothing_length / (11.0 * speed)
 
 
 def _ends_in_pipe(case, around) -> bool:

@@ -13,6 +13,7 @@ from sdph.effects.liquids import time_scaling
 from sdph.engine import state as particles
 from sdph.engine.contact import between
 from sdph.methods.grains import start
+from sdph.methods.liquids.liquid import SLOW
 from sdph.study.explain import liquids, solids
 from sdph.study.gel_droplet import foretold
 
@@ -46,6 +47,22 @@ def contact_of(case) -> list[dict]:
     longest = between(case).limit(min(of_grains, case.liquid.density * case.resolution.spacing**case.dimensions))
     how = "of the time in which contact with the liquid stops grains, where they meet"
     return [{"of": "window", "cause": "contact", "largest [s]": longest, "rules": "", "how": how}]
+
+
+def warnings(case) -> list[str]:
+    """A line for each body that begins faster than the sound of the liquid beside it was chosen for, and what faster
+    sound costs."""
+    if not {"liquid", "solid"} <= set(case.matters):
+        return []
+    speeds = {name: max(math.hypot(*(own.velocity or ())), abs(own.speed)) for name, own in case.bodies.items()}
+    c = case.liquid.sound_speed
+    return [
+        f"bodies.{name} begins at {speed:.3g} m/s, {speed / c:.2g} of the liquid's speed of sound: what it meets is "
+        f"compressed rather than pushed aside; lower its speed, or raise liquid.sound_speed_m_s from {c:g} to "
+        f"{10.0 * speed:.3g}, which lets a step be {liquids.step_of_sound(case, speed):.2g} s long"
+        for name, speed in speeds.items()
+        if speed > SLOW * c
+    ]
 
 
 def motion(case) -> float:
