@@ -19,6 +19,7 @@ from sdph.exchange.window import ANSWER, opening
 from sdph.laws import kernels
 from sdph.methods.grains import start, ways
 from sdph.methods.grains.sound import SWING
+from sdph.study.explain import edges as of_edges
 from sdph.study.explain import feed, pace, prices
 
 ROW = 8  # bytes of a number and of an entry of a neighbour row
@@ -135,11 +136,7 @@ def warnings(case, edges=None) -> list[str]:
     given, warm = case.coupling.window_tolerance, "heat" in case.effects
     told = [NO_GRAINS] * (not (case.particles or case.nozzles)) + [LOOSE.format(given=given)] * (warm and given >= 1.0)
     told += _other_cells(case, edges)
-    return told + [
-        f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
-        for r in ratios(case, edges)
-        if r["safe"] == "NO"
-    ]
+    return told + of_edges.unsafe(ratios(case, edges))
 
 
 def _other_cells(case, edges) -> list[str]:

@@ -16,7 +16,7 @@ from sdph.methods.liquids import bodies, filling
 from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
 from sdph.schema import CaseError
-from sdph.study.explain import estimate, feed, prices, ruling, tanks
+from sdph.study.explain import edges, estimate, feed, prices, ruling, tanks
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
 SAME = 1e-6  # of a spacing: round-off of corners
@@ -108,13 +108,8 @@ def pulled(s) -> float:
 
 def warnings(s) -> list[str]:
     """Ratios that are not safe, and sound that is too slow."""
-    unsafe = [
-        f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} to {r['most']:g}: {r['why']}"
-        for r in ratios(s)
-        if r["safe"] == "NO"
-    ]
     c = s.liquid.sound_speed
-    unsafe += [*_too_fast(s), *ruling.warnings(s.case, s.end, limits(s))]
+    unsafe = [*edges.unsafe(ratios(s)), *_too_fast(s), *ruling.warnings(s.case, s.end, limits(s))]
     layer, around = s.layer * s.length, s.case.parameters.get("tank")
     if around and around.shape == "box" and around.outlet_radius and s.pull[0] + s.shaken and _pipe_empty(s):
         unsafe.append(

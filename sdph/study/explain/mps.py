@@ -7,7 +7,7 @@ import math
 from sdph import effects
 from sdph.methods.mps.method import COURANT
 from sdph.methods.mps.method import limits as limits_of_step
-from sdph.study.explain import estimate, feed, prices, ruling
+from sdph.study.explain import edges, estimate, feed, prices, ruling
 from sdph.study.explain.liquids import WATER
 
 LAYERS = 3.0  # across a film: with two every particle is at a surface; swirl-sheet.md, section 2, 5
@@ -63,11 +63,7 @@ def warnings(s) -> list[str]:
     if "free_energy_tension" in s.case.effects and weber * s.case.run.accuracy < TENSION_OFF:
         tense = [TENSION_WHY.format(weber=weber, off=TENSION_OFF)]
     tense += ruling.warnings(s.case, s.end, limits(s))
-    return tense + [
-        f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:g} on: {r['why']}"
-        for r in ratios(s)
-        if r["safe"] == "NO"
-    ]
+    return tense + edges.unsafe(ratios(s))
 
 
 def limits(s) -> list[dict]:

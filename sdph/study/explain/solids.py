@@ -8,7 +8,7 @@ from sdph.effects.solids import inflation
 from sdph.laws import solids as laws
 from sdph.methods.solids import method, start
 from sdph.study.compare import scene_module
-from sdph.study.explain import estimate, prices
+from sdph.study.explain import edges, estimate, prices
 
 LAYERS = 4.0  # particles across a body: a ring of four gives Lame's stress within 3 % (gel-droplet.md, section 5)
 # a body H thick bends SOFT (h/H)^2 too far: beams of 4 to 20 layers, h/spacing of 1 to 2, plane and square ones, within
@@ -99,15 +99,7 @@ def warnings(s) -> list[str]:
             f"a body's own weight is {sag:.3g} times what squeezes it to nothing (rho g L/E): it collapses; raise "
             f"solid.youngs_modulus_Pa (now {own.youngs_modulus:g})"
         )
-    return (
-        told
-        + [
-            f"{r['ratio']} = {r['value']:.3g}, safe from {r['least']:.3g} to {r['most']:g}: {r['why']}"
-            for r in ratios(s)
-            if r["safe"] == "NO"
-        ]
-        + _swings(s)
-    )
+    return told + edges.unsafe(ratios(s)) + _swings(s)
 
 
 def limits(s) -> list[dict]:

@@ -13,6 +13,7 @@ from sdph.methods.grains.scales import THIN
 from sdph.study.explain import (
     droplets,
     eddies,
+    edges,
     estimate,
     haze,
     liquids,
@@ -200,8 +201,8 @@ def text(parts: dict[str, list[dict]]) -> str:
 
 
 def table(rows: list[dict]) -> str:
-    """Rows of equal keys in columns; numbers to three digits."""
-    cells = [[key for key in rows[0]], *([_shown(value) for value in row.values()] for row in rows)]
+    """Rows of equal keys in columns; numbers to three digits, and to more where those hide a side."""
+    cells = [[key for key in rows[0]], *([_shown(value) for value in edges.shown(row).values()] for row in rows)]
     widths = [max(len(row[c]) for row in cells) for c in range(len(rows[0]))]
     return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in cells)
 
