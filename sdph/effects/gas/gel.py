@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from sdph.laws import real_gas, strength
-from sdph.schema import CaseError, choice, quantity, record, vector
+from sdph.schema import CaseError, choice, fields, quantity, record, vector
 
 EQUATIONS = ("srk", "redlich_kwong_paper")
 BAR = 5.0  # decades from bar to Pa
+# keys that tell one fuel from another; heat capacity and its ratio may well be alike
+MAKING = (
+    "molar_mass_kg_kmol", "critical_temperature_K", "critical_pressure_Pa", "acentric_factor", "antoine",
+    "latent_heat_J_kg",
+)  # fmt: skip
 
 
 @record
@@ -40,6 +45,26 @@ class Fuel:
     latent_heat: float = quantity("J_kg", 2.5e5, above=0.0)
     saturated_heat_capacity: float = quantity("J_kg_K", 2000.0, above=0.0)
     heat_ratio: float = quantity("", 1.02, above=1.0, most=2.0)
+
+
+def whose(fuel: Fuel) -> tuple[list[str], list[str]]:
+    """Keys of a fuel that are not n-dodecane's, and those that are; of numbers, not of the equation of state."""
+    default, found = Fuel(), ([], [])
+    for key, (name, kind) in fields(Fuel).items():
+        if not kind.choices:
+            found[getattr(fuel, name) == getattr(default, name)].append(key)
+    return found
+
+
+def mixed(fuel: Fuel, section: str) -> list[str]:
+    """A line where some keys that make a fuel are a case's, and others n-dodecane's."""
+    own, left = ([key for key in keys if key in MAKING] for keys in whose(fuel))
+    if not own or not left:
+        return []
+    return [
+        f"[{section}] gives {', '.join(own)} of a fuel, and {', '.join(left)} are those of n-dodecane: two "
+        "fuels in one; give all of the same fuel, unless that is meant"
+    ]
 
 
 def plastic(shell: Shell) -> strength.Plastic:

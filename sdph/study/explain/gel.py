@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from sdph.case import usual
 from sdph.effects.gas import gel
 from sdph.laws import real_gas
 from sdph.methods.liquids.liquid import SLOW
@@ -12,7 +13,7 @@ from sdph.study.gel_droplet import foretold
 # p/(rho c^2) [-] from which on the gel is compressed by more than what the Mach number is told of, 4 %: as much as the
 # band of D/D0 at the tear, 1.35 to 1.47, is wide
 COMPRESSED = SLOW**2
-OWN = ("molar_mass", "critical_temperature", "critical_pressure", "acentric_factor", "antoine", "latent_heat")
+CRITICAL = ("critical_temperature", "K"), ("critical_pressure", "Pa"), ("acentric_factor", "")  # of micro_explosion
 
 
 def rows(case) -> list[dict]:
@@ -63,20 +64,38 @@ def compression(case, own: foretold.Growth) -> float:
 
 
 def fuel(bubble) -> str:
-    """Name of the fuel of a bubble: the one of the program, or that of the case."""
-    default = type(bubble)()
-    if all(getattr(bubble, name) == getattr(default, name) for name in OWN):
+    """Name of the fuel of a bubble: the one of the program, or which of its keys are the case's."""
+    own, left = gel.whose(bubble)
+    if not own:
         return "n-dodecane, 170.33 kg/kmol (none is given; NIST's webbook: [bubble] molar_mass_kg_kmol and its like)"
-    return f"the case's own fuel, {bubble.molar_mass:g} kg/kmol (keys of [bubble])"
+    rest = f", and n-dodecane's {', '.join(left)}" if left else ""
+    return f"a fuel, {bubble.molar_mass:g} kg/kmol, with the case's own {', '.join(own)}{rest} ([bubble])"
 
 
 def warnings(case) -> list[str]:
-    """Lines where outputs miss the growth, or pressure compresses the gel."""
-    course = foretold.of(case) if foretold.heated(case) else ""
+    """Lines where two fuels are mixed, outputs miss the growth, or pressure compresses the gel."""
+    if not foretold.heated(case):
+        return _of_spray(case)
+    course, two = foretold.of(case), gel.mixed(case.parameters["bubble"], "bubble")
     if isinstance(course, str):
-        return []
+        return two
     own = foretold.growth(case, course)
-    return [*_missed(case, own), *_compressed(case, own)]
+    return [*two, *_missed(case, own), *_compressed(case, own)]
+
+
+def _of_spray(case) -> list[str]:
+    """A line where the vapour of gel droplets that tear has another molar mass than n-dodecane, and its critical point
+    has not."""
+    if "micro_explosion" not in case.effects:
+        return []
+    default, own, mass = gel.Fuel(), case.parameters["micro_explosion"], case.vapour.molar_mass
+    left = [f"{name}_{unit}".rstrip("_") for name, unit in CRITICAL if getattr(own, name) == getattr(default, name)]
+    if abs(mass - default.molar_mass) <= usual.OTHER * default.molar_mass or not left:
+        return []
+    return [
+        f"vapour.molar_mass_kg_kmol = {mass:g}, and {', '.join(left)} of [micro_explosion] are those of n-dodecane, "
+        f"{default.molar_mass:g} kg/kmol: two fuels in one; give all of the same fuel, unless that is meant"
+    ]
 
 
 def _missed(case, own: foretold.Growth) -> list[str]:

@@ -96,8 +96,9 @@ def of_table(table: dict) -> Droplet:
 
 
 def judged(own: Droplet, say: Callable[[str], None]) -> Droplet:
-    """The same droplet; numbers far from usual are said."""
-    for line in usual.far({name: write(getattr(own, name)) for name in CLASSES}, OF_DROPLET):
+    """The same droplet; numbers far from usual and fuels of two are said."""
+    far = usual.far({name: write(getattr(own, name)) for name in CLASSES}, OF_DROPLET)
+    for line in (*far, *gel.mixed(own.vapour, "vapour")):
         say(f"warning: {line}")
     return own
 

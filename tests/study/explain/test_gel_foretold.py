@@ -52,7 +52,41 @@ def test_outputs_that_miss_the_growth_and_gel_that_is_compressed_are_told():
 def test_the_fuel_is_named_with_where_it_is_from():
     assert "n-dodecane" in told()["boiling temperature"]["how"]
     line = gel.fuel(load("bubble.molar_mass_kg_kmol=46.07").parameters["bubble"])
-    assert "the case's own fuel, 46.07 kg/kmol" in line
+    assert line == (
+        "a fuel, 46.07 kg/kmol, with the case's own molar_mass_kg_kmol, and n-dodecane's critical_temperature_K, "
+        "critical_pressure_Pa, acentric_factor, antoine, latent_heat_J_kg, saturated_heat_capacity_J_kg_K, heat_ratio "
+        "([bubble])"
+    )
+
+
+ETHANOL = (
+    "bubble.molar_mass_kg_kmol=46.07", "bubble.critical_temperature_K=513.9", "bubble.critical_pressure_Pa=6.15e6",
+    "bubble.acentric_factor=0.645", "bubble.antoine=[10.33675, 1648.22, -42.232]", "bubble.latent_heat_J_kg=8.5e5",
+)  # fmt: skip
+
+
+def test_a_whole_fuel_is_the_cases_own_but_for_what_may_be_alike():
+    bubble = load(*ETHANOL).parameters["bubble"]
+    assert gel.fuel(bubble).endswith("and n-dodecane's saturated_heat_capacity_J_kg_K, heat_ratio ([bubble])")
+    whole = (*ETHANOL, "bubble.saturated_heat_capacity_J_kg_K=2800", "bubble.heat_ratio=1.13")
+    assert "n-dodecane" not in gel.fuel(load(*whole).parameters["bubble"])
+
+
+def test_two_fuels_in_one_are_warned_of():
+    (line,) = [one for one in gel.warnings(load(*ETHANOL[:1], "solid.temperature_share=0.1"))]
+    assert line.startswith("[bubble] gives molar_mass_kg_kmol of a fuel, and critical_temperature_K, ")
+    (line,) = [one for one in gel.warnings(load(ETHANOL[5])) if "two fuels" in one]
+    assert line.startswith("[bubble] gives latent_heat_J_kg of a fuel, and molar_mass_kg_kmol, ")
+    assert not any("two fuels" in one for one in gel.warnings(load(*ETHANOL, "solid.temperature_share=0.1")))
+    assert gel.warnings(load("bubble.heat_ratio=1.1", "solid.temperature_share=0.1")) == []
+
+
+def test_the_vapour_of_a_spray_of_gel_is_one_fuel_too():
+    assert gel.warnings(load(scene="gel_spray")) == []
+    (line,) = gel.warnings(load("vapour.molar_mass_kg_kmol=46.07", scene="gel_spray"))
+    assert line.startswith("vapour.molar_mass_kg_kmol = 46.07, and critical_temperature_K, critical_pressure_Pa, acen")
+    given = [f"micro_explosion.{text.partition('.')[2]}" for text in ETHANOL[1:4]]
+    assert gel.warnings(load("vapour.molar_mass_kg_kmol=46.07", *given, scene="gel_spray")) == []
 
 
 def test_a_short_run_goes_at_the_largest_pace_while_the_shell_starts_to_move():

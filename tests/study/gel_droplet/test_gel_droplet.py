@@ -122,6 +122,7 @@ def test_pressures_are_told_to_be_gauge(tmp_path, capsys):
     [
         ("droplet.ambient_pressure_Pa=10", "if bar was meant, give 1e+06"),
         ("shell.youngs_modulus_Pa=9.9", "if MPa was meant, give 9.9e+06"),
+        ("vapour.molar_mass_kg_kmol=46.07", "two fuels in one"),
         ("droplet.ambient_pressure_Pa=101325", ""),
     ],
 )
@@ -129,7 +130,7 @@ def test_slips_of_a_unit_are_said(override, told):
     said = []
     own = sections.load(None, (override,))
     assert sections.judged(own, said.append) == own
-    assert len(said) == bool(told) and all(line.startswith(f"warning: {override[:10]}") for line in said)
+    assert len(said) == bool(told) and all(line.startswith("warning: ") for line in said)
     assert all(told in line for line in said)
 
 
