@@ -7,7 +7,7 @@ from pathlib import Path
 from sdph.case import fluids, forces, usual
 from sdph.effects.solids import rigid_sides
 from sdph.study import against, closed_vessels, gas_keys, inlets, rehearsal
-from sdph.study.explain import gel, lockstep, materials, tables, vessel
+from sdph.study.explain import gel, lockstep, materials, recorded, tables, vessel
 
 
 def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, list[dict]]:
@@ -21,6 +21,7 @@ def explained(case, template: Path, *, allow_code: bool = False) -> dict[str, li
         parts["filled"] = materials.filled(seen, grains.filled) if grains else []
         parts["tank"] = vessel.rows(seen)
         parts["droplet"] = gel.rows(seen)
+        parts["runs before it"] = recorded.rows(seen, parts.get("expected", []))
         parts["forces"], parts["fluids"] = forces.rows(seen), fluids.rows(seen)
         parts["comparisons"] = against.offered(seen)
     return parts
