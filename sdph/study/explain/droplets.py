@@ -8,6 +8,7 @@ from sdph.effects.gas import evaporation
 from sdph.laws import evaporation as law
 from sdph.laws import heat
 from sdph.laws.constants import GAS_CONSTANT
+from sdph.study.explain import weber
 
 # law of evaporation -> what B of heat above its threshold means
 OF_HEAT = {
@@ -26,15 +27,7 @@ def numbers(s, heated: bool) -> list[tuple]:
     if grains.surface_tension:
         pull = grains.surface_tension / grains.diameter
         weight = abs(grains.density - gas.density) * s.gravity * grains.diameter
-        rows.append(
-            (
-                "Weber",
-                gas.density * s.slip**2 / pull,
-                12.0,
-                "droplets break up: that is the effect break_up",
-                "Pilch & Erdman 1987",
-            )
-        )
+        rows += weber.rows(s)
         rows.append(("Bond", weight / pull, 0.4, "droplets are no spheres", "Clift, Grace & Weber 1978, fig. 2.5"))
     if "evaporation" in s.case.parameters and s.case.vapour and s.patches:
         (mass, heat_number, spent), own = spalding(s), s.case.parameters["evaporation"]
