@@ -30,6 +30,7 @@ from coupling.openfoam.comparators import (
     droplet_numbers,
     droplet_sources,
     known,
+    price,
     remedies,
     two_fluid_fields,
     two_fluid_numbers,
@@ -120,9 +121,9 @@ def run_two_fluid(
     """
     mesh = poly_mesh.read(start.mesh) if start and start.mesh else None
     numbers = two_fluid_numbers.macros(case, courant, mesh)
-    files = {TWO_FLUID.macros: _macros(TWO_FLUID.macros, numbers)}
+    files, told = {TWO_FLUID.macros: _macros(TWO_FLUID.macros, numbers)}, price.of_two_fluids(case, numbers, mesh)
     try:
-        return _run(TWO_FLUID, case, folder, ranks, files, start, start.mesh if start else None, again)
+        return _run(TWO_FLUID, case, folder, ranks, files, told, start, start.mesh if start else None, again)
     except GasError as error:
         step = float(numbers.get("time_step") or numbers["first_time_step"])
         raise GasError(f"{error}{remedies.remedy(str(error), mesh, step)}") from None
@@ -146,13 +147,13 @@ def run_droplets(
     own, depth = poly_mesh.read(mesh) if mesh else None, DEPTH
     if own and case.dimensions == 2:
         depth = float(np.ptp(own.points[:, 2]))
-    files = _droplet_files(case, drops, courant, own, depth)
-    found = _run(DROPLETS, _less(case), folder, 1, files, mesh=mesh)
+    files, told = _droplet_files(case, drops, courant, own, depth)
+    found = _run(DROPLETS, _less(case), folder, 1, files, told, mesh=mesh)
     return found if depth == DEPTH else droplet_log.by_the_metre(found, depth)
 
 
-def _droplet_files(case: Case, drops: Drops, courant: float, mesh, depth: float) -> dict[str, str]:
-    """Files in `constant` that tell of the droplets; `depth` [m] is that of a plane mesh."""
+def _droplet_files(case: Case, drops: Drops, courant: float, mesh, depth: float) -> tuple[dict[str, str], str]:
+    """Files in `constant` that tell of the droplets, and words on their price; `depth` [m] is that of a plane mesh."""
     numbers = droplet_numbers.macros(case, drops, courant, mesh)
     step, middle = float(numbers["time_step"]), float(mesh.points[:, 2].mean()) if mesh else 0.5 * depth
     injectors = droplet_sources.injectors(case, drops, step)
@@ -161,7 +162,8 @@ def _droplet_files(case: Case, drops: Drops, courant: float, mesh, depth: float)
         each.name: HEAD.format(name=each.name) + droplet_sources.table(case, each, middle, depth) for each in injectors
     }
     cloud = droplet_cloud.cloud(case, injectors, patches, step, depth)
-    return tables | {DROPLETS.macros: _macros(DROPLETS.macros, numbers), "sdphCloud": cloud}
+    told = price.of_droplets(case, injectors, step, mesh)
+    return tables | {DROPLETS.macros: _macros(DROPLETS.macros, numbers), "sdphCloud": cloud}, told
 
 
 def _less(case: Case) -> Case:
@@ -174,7 +176,7 @@ def _less(case: Case) -> Case:
 
 
 def _run(
-    solver: Solver, case: Case, folder: Path, ranks: int, files: dict[str, str], start: Start | None = None,
+    solver: Solver, case: Case, folder: Path, ranks: int, files: dict[str, str], told: str, start: Start | None = None,
     mesh: Path | None = None, again: bool = False,
 ) -> Reference:  # fmt: skip
     refuse_reference(case, folder)
@@ -191,6 +193,7 @@ def _run(
     kept = shelf() / f"{key(folder, ' '.join(made_with))}.npz"
     if kept.exists() and not again:
         return load(kept)
+    programs.say(f"{folder.name}: {solver.name} begins, {told}")
     for tool in () if mesh else ("blockMesh",) if start else solver.prepare:
         programs.run([tool], folder, folder / f"log.{tool}", environment)
     if start:

@@ -59,6 +59,12 @@ def told(tell: Callable[[str], None]) -> Iterator[None]:
         _HEARS.remove(tell)
 
 
+def say(text: str) -> None:
+    """Tell a line to all who hear."""
+    for tell in _HEARS:
+        tell(text)
+
+
 @contextlib.contextmanager
 def starting(program: str) -> Iterator[None]:
     """Turn the error of a program that is not there, or not for this machine, into a `GasError`."""
@@ -184,8 +190,7 @@ def _tell(steps: Steps, log: Path, end: float) -> None:
     more = f", {steps.moved.wall * (end - steps.time) / steps.time:.0f} s left" if steps.time > 0.0 else ""
     if steps.still.wall > max(QUIET, FEW * steps.longest.wall):
         more = f", stands still since {steps.still.wall:.0f} s"
-    for tell in _HEARS:
-        tell(f"{_name(log)}: t = {steps.time:.4g} of {end:g} s{more}")
+    say(f"{_name(log)}: t = {steps.time:.4g} of {end:g} s{more}")
 
 
 def _name(log: Path) -> str:
