@@ -28,7 +28,7 @@ from sdph.engine.reading import Unreadable, open_plain, read_arrays, read_json
 from sdph.schema import CaseError, flat
 from sdph.version import __version__
 
-FORMAT = 20  # of the files of a checkpoint
+FORMAT = 21  # of the files of a checkpoint
 FOLDER = "checkpoints"
 LASTING = 2  # checkpoints that are kept, so that there is one when the newest is damaged
 # keys that may change between the parts of a run

@@ -229,7 +229,7 @@ def test_another_case_is_refused_with_the_difference(cut, override, told):
 
 @pytest.mark.parametrize(
     ("change", "told"),
-    [({"sdph": "0.0.0"}, "written with sdph 0.0.0"), ({"format": 2}, "written with format 2; this is 20")],
+    [({"sdph": "0.0.0"}, "written with sdph 0.0.0"), ({"format": 2}, "written with format 2; this is 21")],
 )
 def test_another_version_is_refused(cut, change, told):
     manifest = restart.newest(cut).folder / "manifest.json"

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from sdph.effects.gas import gel
+from sdph.engine.kept import Maybe
 from sdph.laws import cavities, real_gas
 from sdph.methods.liquids import pores
 
@@ -33,25 +34,35 @@ def remedy(case) -> str:
 
 
 class Content:
-    """Void [m2], pressure over that around [Pa], mass [kg/m] and temperature [K] of vapour, heat that it got and with
-    which it warmed [J/m], mass that it still owes the liquid, and that went out through a tear; `rim`: a place (2,)
-    [m] by which it is told; whether it is still there (`held`).
+    """Content of one bubble: void [m2], pressure over that around [Pa], mass [kg/m] and temperature [K] of vapour, heat
+    that it got and with which it warmed [J/m], mass that it still owes the liquid, and that went out through a tear;
+    `rim`: a place (2,) [m] in it; radius [m] that the grid misses; whether it is still there (`held`).
 
     Of a torn shell: width [m] of the way out, and `short`: radius [m] that flooding falls short by, None before it."""
 
-    def fill(self, p, first: float) -> None:
-        """Begin with a void [m2]."""
-        self.p, self.first, self.area, self.held = p, first, first, True
+    # see sdph.engine.kept
+    KEPT = (
+        "area", "pressure", "mass", "temperature", "heat", "warmed", "owed", "vented", "rim", "missed", "held",
+        "first", "short", "width",
+    )  # fmt: skip
+    FORMS = {"short": Maybe(0.0)}
+
+    def __init__(self, p, hole):
+        self.p, self.rim, self.missed, self.held = p, np.array(hole.centre), 0.0, True
+        self.first = self.area = cavities.void(hole.radius, 2)
         self.short, self.width = None, 0.0
         self.pressure, self.mass, self.temperature = p.excess, 0.0, 0.0
         self.heat = self.warmed = self.owed = self.vented = 0.0
         if p.vapour:
-            self.coldest, self.hottest = (share * p.vapour.critical_temperature for share in (COLDEST, HOTTEST))
-            self.thinnest, self.densest = (
-                float(real_gas.saturated_density(p.vapour, end)) for end in (self.coldest, self.hottest)
-            )
-            self.temperature = float(real_gas.saturation_temperature(p.vapour, p.around + self._capillary()))
-            self.mass = float(real_gas.saturated_density(p.vapour, self.temperature) * self.area)
+            self._saturate(p.vapour)
+
+    def _saturate(self, v) -> None:
+        """Begin with vapour at the pressure around, and know its bounds."""
+        self.coldest, self.hottest = (share * v.critical_temperature for share in (COLDEST, HOTTEST))
+        ends = self.coldest, self.hottest
+        self.thinnest, self.densest = (float(real_gas.saturated_density(v, end)) for end in ends)
+        self.temperature = float(real_gas.saturation_temperature(v, self.p.around + self._capillary()))
+        self.mass = float(real_gas.saturated_density(v, self.temperature) * self.area)
 
     @property
     def radius(self) -> float:
@@ -119,6 +130,10 @@ class Content:
         if self.pore.lost or radius <= 0.0 or (self.width and self.pressure <= 0.0):
             self.let_go()
 
+    def holds(self, other: Content) -> bool:
+        """Tell whether the place of another is in this void, when both were looked for in one grid."""
+        return self.pore is not None and bool(self.pore.depth[self.grid.at(*other.rim)] <= 0.0)
+
     def depth(self, state) -> np.ndarray:
         """(N,) how far [m] particles lie behind the face of a flooded void, infinite of those nearer to the air."""
         if self.pore is None:
@@ -131,6 +146,10 @@ class Content:
         """Be one with the air: what is left of the vapour is out."""
         self.vented, self.mass = self.vented + self.mass, 0.0
         self.held, self.area, self.pressure, self.width = False, 0.0, 0.0, 0.0
+
+    def end(self) -> None:
+        """Be gone."""
+        self.held, self.area, self.mass, self.owed, self.pressure = False, 0.0, 0.0, 0.0, 0.0
 
     def vent(self, dt: float) -> None:
         """Let vapour out for dt [s] through the way out."""

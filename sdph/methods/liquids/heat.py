@@ -120,8 +120,7 @@ class Heat:
     def _boil(self, dt: float) -> tuple[np.ndarray, np.ndarray]:
         """Heat (N,) [J] that each particle gives to the bubble, and mass (N,) [kg] that boils off it."""
         own = self.stepper
-        facing, length = own.void.face(own), FACE * own.kernel.h
-        return own.void.take_up(own, 2.0 * self.p.conductivity / length * self.volume * facing, dt)
+        return own.void.take_up(own, 2.0 * self.p.conductivity / (FACE * own.kernel.h) * self.volume, dt)
 
     def carry(self, own, lost) -> None:
         """Mass (P,) [kg] leaves particles `own` with their heat."""

@@ -84,7 +84,7 @@ class LiquidStepper:
         self.compliance = np.array([self._compliance(kind) for kind in range(GAS + 1)])
         self.aim(0.0)
         self.heat = None  # until it is known what there is to heat
-        self.void = bubbles.of(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
+        self.void = bubbles.Bubbles(case, self.p["bubble"], self.state, self.bodies) if self.p["bubble"] else None
         self.landed = None  # see sdph.engine.ashore
         self.look = None  # who is told of new forces, with the length [s] of the kick to come
         self.born = born(self.state, own)
@@ -274,7 +274,7 @@ class LiquidStepper:
         near = len(s.x) if self.p["surface_tension"] else 0
         self.normal, self.curvature = self._room((near, 3)), self._room(near)
         blown = len(s.x) if self.p["bubble"] else 0
-        self.inflating, self.facing = self._room((blown, 3)), self._room(blown)  # see sdph.methods.liquids.bubble
+        self.inflating, self.facing = self._room((blown, 3)), self._room(blown)  # see sdph.methods.liquids.faces
 
     @property
     def capacity(self) -> float:

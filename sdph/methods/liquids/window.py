@@ -74,7 +74,7 @@ def _passed(stepper) -> np.ndarray:
 
 
 def _boiled(stepper) -> np.ndarray:
-    """(5,) of what boiled off into a bubble (sdph.methods.liquids.bubble)."""
+    """(5,) of what boiled off into a bubble (sdph.methods.liquids.bubbles)."""
     return stepper.void.passed.copy() if stepper.void else np.zeros(5)
 
 

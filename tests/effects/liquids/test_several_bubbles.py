@@ -204,8 +204,8 @@ def test_a_bubble_that_nothing_but_its_wall_heats_names_its_own_flux():
 def test_a_bubble_that_condenses_ends_with_what_to_do(tmp_path):
     run = Alone(heated(1e-5, temperature=300.0), tmp_path / "ledger.csv")
     run.start()
-    void = run.method.stepper.void
-    void.mass *= 1e-3  # as if all but that had condensed
+    (bubble,) = run.method.stepper.void.parts
+    bubble.mass *= 1e-3  # as if all but that had condensed
     with pytest.raises(Unstable, match=r"density of the vapour .*; in a liquid of liquid_heat\.temperature_K = 300"):
         run.window()
 
