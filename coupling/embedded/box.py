@@ -11,8 +11,8 @@ from coupling.embedded import boundaries
 from coupling.embedded.grid import Grid
 from coupling.embedded.properties import Properties
 from coupling.gas import IMPULSES, refuse_full_cells
+from sdph.laws.constants import ROUND_OFF
 
-ROUND_OFF = 1e-9  # of a volume fraction
 MOST = 1e4  # times its usual density that a gas may have; our choice
 
 

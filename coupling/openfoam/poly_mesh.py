@@ -12,12 +12,11 @@ import numpy as np
 
 from coupling.openfoam import dictionary
 from sdph.engine.geometry import SIDES
-from sdph.laws.constants import TINY
+from sdph.laws.constants import ROUND_OFF, TINY
 from sdph.schema import CaseError
 
 FOLDER, BLOCKS = "constant/polyMesh", "system/blockMeshDict"
 IN_SIDE = 1e-6  # of a mesh's size: OpenFOAM writes six digits or more
-ROUND_OFF = 1e-9  # of the size of a mesh: a corner nearer to the origin is there
 HEADER = re.compile(rb"FoamFile\s*\{.*?\}", re.DOTALL)
 COMMENT = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
 START = re.compile(rb"\s*(\d+)\s*\(")

@@ -22,6 +22,7 @@ FIELDS = {
 }
 HEAD = "FoamFile {{ version 2.0; format ascii; class {cls}; object {name}; }}\n"
 ZERO_GRADIENT = "type zeroGradient;"
+CALCULATED = "type calculated; value $internalField;"
 EMPTY = "empty"  # type of the sides of a plane mesh
 CYCLIC = "cyclic"  # type of patches through which gas comes in again on the other side
 STILL = Boundary(kind="wall")

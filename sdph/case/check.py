@@ -18,9 +18,10 @@ from sdph.case import (
     slices,
     turbulent,
 )
-from sdph.case.extents import SAME, inside, mouth, probe, side
+from sdph.case.extents import inside, mouth, probe, side
 from sdph.case.sections import Case, Part, Region
 from sdph.effects.liquids import bubble
+from sdph.laws.constants import ROUND_OFF
 from sdph.methods.liquids.sections import Pool
 from sdph.methods.mps.scales import KNOWN
 from sdph.methods.mps.start import refuse
@@ -259,7 +260,7 @@ def _check_place(case: Case, where: str, part) -> None:
         given = f"{where}.shape = 'ring' is of two dimensions; dimensions = {case.dimensions}"
         raise CaseError(f"{given}: give another shape")
     size = _narrowest(where, part)
-    if case.resolution.spacing > size * (1.0 + SAME):
+    if case.resolution.spacing > size * (1.0 + ROUND_OFF):
         spacing = f"resolution.spacing_mm = {case.resolution.spacing * 1e3:g}"
         raise CaseError(f"{spacing} is larger than {where} ({size * 1e3:g} mm); give a spacing well below that")
 

@@ -6,9 +6,9 @@ import math
 
 from sdph.case import bodies, probed
 from sdph.engine.geometry import SIDES
+from sdph.laws.constants import ROUND_OFF
 from sdph.schema import CaseError
 
-SAME = 1e-9  # of a length: round-off
 # of a spacing: nearer to a side nothing tells inside from outside (contact holds grains a quarter away), and meshes of
 # snappyHexMesh, written with six digits, end there; our choice
 NEAR = 1e-3
@@ -34,7 +34,7 @@ def mouth(case, where: str, nozzle) -> None:
 
 def inside(case, key: str, lower, upper) -> None:
     """CaseError where a region from `lower` to `upper`, given by `key`, reaches out of the domain."""
-    slack = max(SAME * max(case.domain.size), NEAR * case.resolution.spacing)
+    slack = max(ROUND_OFF * max(case.domain.size), NEAR * case.resolution.spacing)
     low, high = case.domain.corner, case.domain.upper
     if any(a < c - slack or b > d + slack for a, b, c, d in zip(lower, upper, low, high)):
         begins = f" from domain.lower_m = {list(low)}" if any(low) else ""
@@ -67,7 +67,7 @@ def side(case, where: str, boundary) -> None:
     ends = list(zip(case.domain.corner, case.domain.upper))
     del ends[SIDES[boundary.side][0]]
     for (low, high), (first, last) in zip(_pairs(where, boundary.span, len(ends)), ends):
-        if low < first - SAME * (last - first) or high > last + SAME * (last - first):
+        if low < first - ROUND_OFF * (last - first) or high > last + ROUND_OFF * (last - first):
             raise CaseError(
                 f"{where}.span_m goes from {low:g} to {high:g} m; the box goes from {first:g} to {last:g} m there"
             )

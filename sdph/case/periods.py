@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from sdph.case.extents import SAME
 from sdph.case.sections import Case
+from sdph.laws.constants import ROUND_OFF
 from sdph.schema import CaseError
 
 
@@ -45,7 +45,7 @@ def _of_liquid(case: Case) -> None:
 
 def of_pool(case: Case, where: str, pool) -> None:
     """A pool lies within the domain along periodic axes: beyond it particles would lie on their own images."""
-    box, slack = pool.shape == "box", SAME * max(case.domain.size)
+    box, slack = pool.shape == "box", ROUND_OFF * max(case.domain.size)
     lower = pool.lower if box else [c - pool.radius for c in pool.centre]
     upper = pool.upper if box else [c + pool.radius for c in pool.centre]
     for axis, low, high, length, on in zip("xyz", lower, upper, case.domain.size, case.liquid.periodic or ()):

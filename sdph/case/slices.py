@@ -12,7 +12,7 @@ from sdph.schema import CaseError
 RINGS = "r"
 FILE = re.compile(r"[\w-]+")
 DIGITS = 12  # of edges [m]: no round-off in tables
-MOST = 10_000  # slices; our choice
+MOST_SLICES = 10_000  # slices; our choice
 
 
 def check(case, where: str, own) -> None:
@@ -26,8 +26,10 @@ def check(case, where: str, own) -> None:
     if own.along not in ("x", "y", "z")[: case.dimensions] and not _rings(case, where, own):
         raise CaseError(f'{where}.along = "z"; this case has the axes x and y')
     _check_places(case, where, own)
-    if (count := len(edges(case, own)) - 1) > MOST:
-        raise CaseError(f"{where}.slice_m = {own.slice:g} makes {count} slices; give at most {MOST}: thicker ones")
+    if (count := len(edges(case, own)) - 1) > MOST_SLICES:
+        raise CaseError(
+            f"{where}.slice_m = {own.slice:g} makes {count} slices; give at most {MOST_SLICES}: thicker ones"
+        )
 
 
 def _check_places(case, where: str, own) -> None:

@@ -13,8 +13,7 @@ from sdph.cli import judging, making
 from sdph.cli.arguments import parser
 from sdph.cli.sweeping import sweep
 from sdph.schema import CaseError
-
-FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5
+from sdph.study.apart import BAD_INPUT, CANNOT_WRITE, CHECK_FAILED, FINE, GAS_FAILED, WENT_UNSTABLE
 
 
 def main(given: list[str] | None = None) -> int:

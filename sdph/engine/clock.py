@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-SAME = 1e-9  # of the longest time between outputs: moments nearer to each other differ by round-off only; our choice
+from sdph.laws.constants import ROUND_OFF
+
 # of a multiple of an interval: 12 x 0.05 is 0.6 then, as whoever wrote the end time meant it; a float holds as many
 DIGITS = 15
 SAMPLES = 10  # rows of history.csv for each output of fields, where a liquid or solid says nothing; our choice
@@ -30,7 +31,7 @@ class Clock:
     def __init__(self, run, rows: float | None = None, turns=()):
         self.limit, self.end = "", run.end_time
         self.outputs = every(run.output_interval, run.end_time)
-        self.shortest = SAME * float(np.diff(self.outputs, prepend=0.0).max())
+        self.shortest = ROUND_OFF * float(np.diff(self.outputs, prepend=0.0).max())
         regular = every(rows, run.end_time) if rows else ()
         others = *regular, *run.report_at, *(time for time in (run.average_from, *turns) if time > self.shortest)
         self.landmarks = with_others(self.outputs, others, self.shortest)

@@ -55,6 +55,7 @@ IMPULSES_OF_GAS = (
 # round-off of its sums, so that there is nothing to relate a drift to; our choice
 TOLD = 1e-7
 SEEN = 1e-3  # of motion, whose sum is good to 1e-14: no drift of less work can be told to 1e-10 of it; our choice
+IN, OUT = 0, 1  # rows of what has passed the openings of a method
 ROUND_OFF = 2.0**-52  # of a sum
 # of the enthalpy of the gas, what its sums may lose in a window; in many it grows as the square root of their number.
 # Gas at rest lost 1.2 round-offs times that root in 6540 windows, other runs 0.07 at most; our choice. Over 1e-8

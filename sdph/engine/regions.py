@@ -16,6 +16,7 @@ from sdph.engine.walls import facets, shapes
 from sdph.engine.walls.dummies import CONTACT
 from sdph.engine.walls.outline import outline
 from sdph.engine.world import ALONE
+from sdph.laws.constants import SAME
 from sdph.schema import CaseError
 
 ALONG_AXIS = ("cylinder", "cone")
@@ -23,8 +24,7 @@ ROUND = ("disc", "sphere")
 BY_SURFACE = ("mesh", "outline")
 AXES = ("x", "y", "z")
 MESH = "mesh of particles"
-HALF = 0.5  # of a spacing between a level and the row below
-SAME = 1e-6  # of a spacing: round-off
+BELOW = 0.5  # of a spacing between a level and the row below
 PLACES = 100000  # by which volumes are counted; our choice
 
 
@@ -173,7 +173,7 @@ def below(where: str, region, places, up, spacing: float, each: float, world=ALO
         span = world.most(float(height.max(initial=-math.inf))) - least + spacing
         if region.height > span + spacing:
             raise CaseError(f"{where}.height_m = {region.height:g}; its region is {span:.4g} m high: give less")
-        return height <= least + region.height - (HALF - SAME) * spacing
+        return height <= least + region.height - (BELOW - SAME) * spacing
     count = max(1, round(region.mass / each))
     if count > len(places):
         most = f"{len(places) * each:.6g} kg fit at volume_fraction = {region.volume_fraction:g}"

@@ -23,7 +23,7 @@ from sdph.laws import grain_loss
 from sdph.laws.compiled import parallel, serial
 from sdph.laws.exchange import mean_rise
 
-PROBE = 1e-3  # K, step of the slope of the rate with temperature
+COOLER = 1e-3  # K, step of the slope of the rate with temperature
 FINISHED = 1e-9  # of the mass at birth, below which a particle has evaporated; our choice
 # of the force, within which rate and heat are found together, and the steps that it may take; our choice
 CLOSE, TRIES = 1e-12, 60
@@ -249,8 +249,8 @@ def force_by(p, balance, without):
 @serial
 def slope_of(p, temperature, concentration, gas_temperature, gas_density, now):
     """Slope [kg/m3/K] of the driving force, which is `now`, with the temperature of the droplet."""
-    below = driving_force(p, temperature - PROBE, concentration, gas_temperature, gas_density)
-    return (now - below) / PROBE
+    below = driving_force(p, temperature - COOLER, concentration, gas_temperature, gas_density)
+    return (now - below) / COOLER
 
 
 @parallel

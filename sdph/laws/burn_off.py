@@ -16,9 +16,9 @@ import math
 
 from sdph.laws import grain_loss
 from sdph.laws.compiled import law
+from sdph.laws.constants import CONVERGED
 
 STEPS = 60  # of Newton's iteration, which ends long before: it is monotone, its error squares
-ROUND_OFF = 1e-14  # of d
 
 
 @law
@@ -55,7 +55,7 @@ def diameter_of_scale(of, kinetic, ventilation, film):
         slope = 4.0 * kinetic + film * 2.0 * d / (1.0 + ventilation * math.sqrt(d))
         step = (scale(d, kinetic, ventilation, film) - of) / slope
         d -= step
-        if step <= ROUND_OFF * d:
+        if step <= CONVERGED * d:
             break
     return d
 

@@ -19,3 +19,9 @@ FRICTION_ETA = 2.0  # -
 FRICTION_P = 5.0  # -
 
 TINY = 1e-300  # keeps a quotient finite whose numerator vanishes with its denominator, without a branch; our choice
+
+# Relative, all our choice
+ROUND_OFF = 1e-9  # numbers that differ by less differ by round-off of sums alone
+SAME = 1e-6  # places that were found each in its own way, by turns and roots, and differ by less are the same
+CONVERGED = 1e-14  # a step of Newton's method that is shorter than that of the root is the last one
+HALVINGS = 60  # of an interval, down to round-off

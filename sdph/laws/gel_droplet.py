@@ -11,10 +11,10 @@ from typing import NamedTuple
 from sdph.laws import cavities, real_gas, shells
 from sdph.laws.compiled import law
 
-FIRST_SEARCH = 1e-9  # of the void: the first step of a search for that of the end, which then doubles
+FIRST_OF_VOID = 1e-9  # of the void: the first step of a search for that of the end, which then doubles
 DOUBLINGS = 40  # of it: up to 500 times the void
 ROUNDS = 80  # of a root's search at most: each halves what encloses the root or does better
-NEAR = 1e-13  # of the heat that the bubble holds: roots are found to this
+BALANCED = 1e-13  # of the heat that the bubble holds: roots are found to this
 
 
 class Around(NamedTuple):
@@ -66,10 +66,10 @@ def inflated(around, gel, v, edges, plastic, damage, dt, heat, bubble, before, a
     gel [m^dims]: its volume over `cavities.measure`; edges, before, after: of the shell (`shells.loaded`); `after`
     becomes the shell's at the end. A void of nan where none is found.
     """
-    scale = NEAR * (v.latent_heat * bubble.mass + dt * heat[1] * bubble.temperature)
+    scale = BALANCED * (v.latent_heat * bubble.mass + dt * heat[1] * bubble.temperature)
     low = high = bubble.void
     below = above = _left_over(around, gel, v, edges, plastic, damage, dt, heat, bubble, low, before, after)
-    sign, step = (1.0 if below < 0.0 else -1.0), FIRST_SEARCH * bubble.void
+    sign, step = (1.0 if below < 0.0 else -1.0), FIRST_OF_VOID * bubble.void
     for _ in range(DOUBLINGS):
         if sign * above >= 0.0:
             break

@@ -15,10 +15,10 @@ import math
 import numpy as np
 
 from sdph.laws.compiled import law
+from sdph.laws.constants import CONVERGED
 
 NODES = 8  # of the Gauss-Jacobi rule of g: relative error below 1e-6 for x up to 30; our choice
 NEWTON_STEPS = 50  # Newton's iteration ends long before: it is monotone, its error squares
-ROUND_OFF = 1e-14  # of D
 
 
 def _jacobi() -> tuple[np.ndarray, np.ndarray]:
@@ -53,7 +53,7 @@ def square_of_scale(scale, c):
     for _ in range(NEWTON_STEPS):
         step = (scale - loss_scale(square, c)) * (1.0 + c * math.sqrt(math.sqrt(square)))
         square += step
-        if abs(step) <= ROUND_OFF * square:
+        if abs(step) <= CONVERGED * square:
             break
     return square
 

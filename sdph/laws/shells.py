@@ -13,11 +13,11 @@ import numpy as np
 
 from sdph.laws import strength
 from sdph.laws.compiled import law
+from sdph.laws.constants import HALVINGS
 
 FLOW, HARD, HARM, SWELL = 0, 1, 2, 3  # rows of layers: plastic strain with its sign, r of `strength`, damage, ln J
 FIRST_SEARCH = 1e-9  # of hoop strain: the first step of a search for the spot's strain, which then doubles
 DOUBLINGS = 29  # of it: from 1e-9 to 0.5
-HALVINGS = 60  # of the interval that encloses the spot's strain, down to round-off
 
 
 @law

@@ -27,7 +27,7 @@ BARS = {
     "numerical_work_rel": NUMERICAL,
     "energy_missing_rel": 0.01,  # of solids: gel-droplet.md, section 5, energy
 }
-SEEN = 1e-3  # of the energy at hand: less than that dissipated, a liquid hardly moves; our choice, as of motion_drift
+STILL = 1e-3  # of the energy at hand: less than that dissipated, a liquid hardly moves; our choice, as of motion_drift
 # of the impulses of the gas: faces balance its momentum and cells hold it, which is the same in boxes alone, and to
 # first order in a window where mass of cells changes (docs/theory/gas.md). A run tells it, no scene is held to it; our
 # choice
@@ -53,9 +53,9 @@ def work_of_gas(summary: dict) -> list[dict]:
 
 
 def at_rest(summary: dict) -> bool:
-    """True of a liquid that dissipated less than SEEN of its energy at hand: it hardly moves, and what is numerical has
-    no physical dissipation to be related to. False where a summary does not tell."""
-    return AT_HAND in summary and abs(summary["dissipated_J"]) < SEEN * summary[AT_HAND]
+    """True of a liquid that dissipated less than STILL of its energy at hand: it hardly moves, and what is numerical
+    has no physical dissipation to be related to. False where a summary does not tell."""
+    return AT_HAND in summary and abs(summary["dissipated_J"]) < STILL * summary[AT_HAND]
 
 
 def checks(summary: dict) -> list[dict]:

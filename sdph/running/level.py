@@ -9,7 +9,7 @@ from sdph.engine import state as particles
 from sdph.laws.kernels import SUPPORT
 
 FIELD = "level"  # of a probe
-STEP = 0.25  # of the spacing, between places of a line that are looked at; our choice
+LOOKED_AT = 0.25  # of the spacing, between places of a line that are looked at; our choice
 EDGE = 0.5  # of the largest share of liquid along the line, at its surface
 
 
@@ -23,7 +23,7 @@ def of(case, cloud, at, world) -> float:
     d, up = case.dimensions, _up(case)
     axis = int(np.abs(up).argmax())
     low, high = case.domain.corner[axis], case.domain.upper[axis]
-    heights = np.linspace(low, high, 1 + round((high - low) / (STEP * case.resolution.spacing)))[:: int(up[axis])]
+    heights = np.linspace(low, high, 1 + round((high - low) / (LOOKED_AT * case.resolution.spacing)))[:: int(up[axis])]
     kernel = smoothing.smoothing(case.liquid.kernel, d, case.smoothing_length)
     aside = places[:, :d] - np.array(at)
     aside[:, axis] = 0.0

@@ -23,7 +23,7 @@ from sdph.running import inputs
 from sdph.schema import CaseError
 
 FILE, SIZE = "patches.vtk", "domain.size_m"
-SAME = 1e-6  # of a volume: as far as text files of a mesh tell it
+AS_WRITTEN = 1e-6  # of a volume: as far as text files of a mesh tell it
 
 
 def walled(case, gas, folder: Path):
@@ -138,7 +138,7 @@ def fills(case, mesh: Path) -> bool:
     """True where a mesh is the whole box of the domain."""
     own = poly_mesh.read(mesh)
     depth = float(np.ptp(own.points[:, 2])) if case.dimensions == 2 else 1.0
-    return math.isclose(own.volumes.sum(), math.prod(case.domain.size) * depth, rel_tol=SAME)
+    return math.isclose(own.volumes.sum(), math.prod(case.domain.size) * depth, rel_tol=AS_WRITTEN)
 
 
 def refuse_outside(case, cells: Cells, state, world=ALONE) -> None:

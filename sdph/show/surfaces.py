@@ -9,7 +9,7 @@ import numpy as np
 from sdph.show import sampled
 from sdph.show.shot import Shot, numbers
 
-FINE = 0.5  # of the spacing: step of the grid on which a surface is found; our choice
+GRID = 0.5  # of the spacing: step of the grid on which a surface is found; our choice
 MOST = 2e7  # points of that grid: half a minute and a GB; our choice
 MANY = 300_000  # particles between which triangles are found (66 000 took 2 s on 28 November 2026); our choice
 SMOOTHED = 60  # rounds of Taubin's smoothing of a surface, that takes the bumps of the particles; our choice
@@ -26,7 +26,7 @@ def of_liquid(shot: Shot, liquid: np.ndarray, field: str):
 def affordable(shot: Shot, liquid: np.ndarray) -> bool:
     """True where the grid for the surface has no more than MOST points."""
     wide = np.ptp(np.asarray(shot.particles.points)[liquid], axis=0) + 4.0 * shot.spacing
-    return float(np.prod(wide / (FINE * shot.spacing))) <= MOST
+    return float(np.prod(wide / (GRID * shot.spacing))) <= MOST
 
 
 def of_bulk(shot: Shot, liquid: np.ndarray, field: str):
@@ -36,7 +36,7 @@ def of_bulk(shot: Shot, liquid: np.ndarray, field: str):
         return _nothing(liquid)
     places, volumes = np.asarray(shot.particles.points)[shown], shot.sizes()[shown] ** 3
     bounds = np.stack((places.min(axis=0), places.max(axis=0)), axis=1).ravel() + 2 * shot.spacing * np.tile([-1, 1], 3)
-    grid, data = sampled.grid(bounds, FINE * shot.spacing), shot.particles.point_data
+    grid, data = sampled.grid(bounds, GRID * shot.spacing), shot.particles.point_data
     arrays = {field: numbers(data[field])[shown]} if field in data else {}
     values, share = sampled.of_particles(grid, places, volumes, arrays, sampled.REACH * shot.spacing, 3)
     grid["share"] = share

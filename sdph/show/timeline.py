@@ -13,7 +13,7 @@ import numpy as np
 from sdph.running import fields
 from sdph.schema import CaseError
 
-SAME = 1e-6  # of the last time: how far past it a time may lie, by the digits it was written with
+PAST = 1e-6  # of the last time: how far past it a time may lie, by the digits it was written with
 PARTICLES = ("velocity", "ident", "kind", "mass", "density")  # arrays that all particles have, of grains and of liquids
 GAS_CELLS = ("velocity", "pressure", "temperature", "density", "alpha_p")
 
@@ -71,7 +71,7 @@ def state_at(timeline: Timeline, time: float | None = None) -> Instant:
     """(time, particles, gas) nearest to `time` [s]; the last without one."""
     times = timeline.time_values
     chosen = times[-1] if time is None else min(times, key=lambda t: abs(t - time))
-    if time is not None and not times[0] <= time <= times[-1] and not abs(time - chosen) <= SAME * times[-1]:
+    if time is not None and not times[0] <= time <= times[-1] and not abs(time - chosen) <= PAST * times[-1]:
         raise CaseError(f"no fields at {time:g} s: this run has fields from {times[0]:g} to {times[-1]:g} s")
     parts = timeline.files[chosen]
     gas = fields.load(parts[1], GAS_CELLS) if 1 in parts else None  # a liquid has none

@@ -13,7 +13,7 @@ from sdph.show.shot import Shot
 
 KINDS = (".png", ".svg", ".pdf")  # of pictures
 MOVIES = {".gif": {"duration": 100, "loop": 0}, ".mp4": {"fps": 10, "macro_block_size": 2}}  # ten pictures a second
-TELL = 10.0  # s between two lines on how far a movie is
+TELL_DRAWN = 10.0  # s between two lines on how far a movie is
 
 
 def _silent(text: str) -> None:
@@ -88,11 +88,12 @@ def movie(
 
 
 def _told(shots: list[Shot], tell: Callable[[str], None]) -> Iterator[Shot]:
-    """The shots one after the other; `tell` hears every TELL seconds how many are drawn and how long the rest takes."""
+    """The shots one after the other; `tell` hears every TELL_DRAWN seconds how many are drawn and how long the rest
+    takes."""
     begun = last = time.perf_counter()
     for number, taken in enumerate(shots):
         now = time.perf_counter()
-        if number and now - last > TELL:
+        if number and now - last > TELL_DRAWN:
             last = now
             tell(f"picture {number} of {len(shots)}, {(now - begun) * (len(shots) - number) / number:.0f} s left")
         yield taken

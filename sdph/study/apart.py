@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from sdph.study import pool
 
-FINE, CHECK_FAILED = 0, 1  # exit codes of commands that judge
+FINE, CHECK_FAILED, BAD_INPUT, GAS_FAILED, CANNOT_WRITE, WENT_UNSTABLE = 0, 1, 2, 3, 4, 5  # exit codes of `sdph`
 LINGER = 30.0  # s that a run has to stop after Ctrl-C; our choice
 _LIVE: set[subprocess.Popen] = set()  # commands of `ended` that are on their way
 

@@ -17,7 +17,7 @@ from sdph.scenes import paths
 from sdph.schema import CaseError
 from sdph.show import timeline
 
-SAME = 1e-6  # of the time between outputs: times nearer to each other are the same
+BETWEEN = 1e-6  # of the time between outputs: times nearer to each other are the same
 DIGITS = 1e-7  # of a time: those that OpenFOAM's folders and run.pvd are written with
 
 
@@ -103,12 +103,12 @@ def _table(file: Path) -> dict[str, np.ndarray]:
 
 def _same(time: float, interval: float) -> float:
     """Distance [s] from `time` [s] within which an output is at that time."""
-    return SAME * interval + DIGITS * abs(time)
+    return BETWEEN * interval + DIGITS * abs(time)
 
 
 def too_short(run: Finished) -> bool:
     """Tell whether a run ends before the first time that a reference of OpenFOAM writes at."""
-    return run.summary["time_s"] < run.case.run.output_interval * (1.0 - SAME)
+    return run.summary["time_s"] < run.case.run.output_interval * (1.0 - BETWEEN)
 
 
 def times_of_both(run: Finished, reference) -> list[float]:

@@ -37,7 +37,7 @@ def test_a_film_tells_how_far_it_is_and_is_there_when_it_is_whole(tmp_path, monk
     for time in range(3):
         own = cloud(lattice(4), ident=np.arange(16), velocity=np.full((16, 3), 1.0 + time))
         fields.write(float(time), {"particles": own})
-    monkeypatch.setattr(view, "TELL", 0.0)
+    monkeypatch.setattr(view, "TELL_DRAWN", 0.0)
     view.movie(tmp_path, tmp_path / "a.gif", tell=heard.append)
     assert [re.sub(r"\d+ s left", "", line) for line in heard] == [f"picture {n} of 3, " for n in (1, 2)]
 

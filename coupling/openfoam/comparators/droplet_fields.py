@@ -8,7 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from coupling.openfoam.start_fields import EMPTY, GIVEN_FLUX, HEAD, STILL, ZERO_GRADIENT, fixed, let_in, vector
+from coupling.openfoam.start_fields import (
+    CALCULATED,
+    EMPTY,
+    GIVEN_FLUX,
+    HEAD,
+    STILL,
+    ZERO_GRADIENT,
+    fixed,
+    let_in,
+    vector,
+)
 
 VAPOUR = "C10H22"
 CARRIER = "air"
@@ -20,7 +30,6 @@ FIELDS = {  # field -> (class, dimensions)
     CARRIER: ("volScalarField", "[0 0 0 0 0 0 0]"),
     VAPOUR: ("volScalarField", "[0 0 0 0 0 0 0]"),
 }
-CALCULATED = "type calculated; value $internalField;"
 
 
 def start_fields(case, others: dict[str, str] | None = None) -> dict[str, str]:

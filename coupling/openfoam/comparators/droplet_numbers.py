@@ -10,12 +10,12 @@ from coupling.openfoam.comparators.two_fluid_numbers import divided, finest
 from coupling.openfoam.poly_mesh import PolyMesh
 from sdph.case.matter import Vapour
 from sdph.case.sections import Case
+from sdph.effects.gas.evaporation import ALWAYS
 from sdph.laws import heat as heat_law
 
 COURANT = 0.04  # of the fastest droplet or inlet; 2e-4 s in the paper's jet, where OpenFOAM was checked
 API_DIFFUSION = 3.6059e-3  # OpenFOAM's APIdiffCoefFunc: D = 3.6059e-3 (1.8 T)^1.75 alpha/(p beta), with alpha = 1 here
 GAS_LAWS = {"constant": "rhoConst", "operating": "incompressiblePerfectGas"}  # gas.equation_of_state -> OpenFOAM's
-ALWAYS = 1.0  # K: an onset that every droplet is above
 CORRECTORS = 2  # of the pressure on cells that are no boxes; our choice
 REST = 10.0  # steps between two outputs of what stands still
 

@@ -4,9 +4,8 @@ nobody looked at yet."""
 from __future__ import annotations
 
 from sdph.case.sections import Case
+from sdph.laws.constants import ROUND_OFF
 from sdph.schema import CaseError
-
-ROUND_OFF = 1e-9  # of the time between outputs
 
 
 def refuse_no_output(case: Case) -> None:

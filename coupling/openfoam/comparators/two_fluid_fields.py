@@ -15,7 +15,7 @@ import numpy as np
 from coupling.openfoam import fields
 from coupling.openfoam.comparators import known
 from coupling.openfoam.comparators.start import Start
-from coupling.openfoam.start_fields import EMPTY, HEAD, STILL, ZERO_GRADIENT, fixed, let_in, vector
+from coupling.openfoam.start_fields import CALCULATED, EMPTY, HEAD, STILL, ZERO_GRADIENT, fixed, let_in, vector
 from sdph.effects.around import wall_grip
 
 # field -> (class, dimensions)
@@ -31,7 +31,6 @@ FIELDS = {
     "p": ("volScalarField", "[1 -1 -2 0 0 0 0]"),
     "p_rgh": ("volScalarField", "[1 -1 -2 0 0 0 0]"),
 }
-CALCULATED = "type calculated; value $internalField;"
 SAME = {"alphat.particles": CALCULATED, "nut.particles": CALCULATED, "p": CALCULATED, "Theta.particles": ZERO_GRADIENT}
 GIVEN_FLUX = "type fixedFluxPressure; value $internalField;"
 STARTED = ("alpha.particles", "U.particles", "T.particles")  # of which a start tells cell by cell

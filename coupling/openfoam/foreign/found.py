@@ -10,7 +10,8 @@ import numpy as np
 from coupling.openfoam.foreign import bed, conditions, properties
 from coupling.openfoam.foreign.conditions import PLANE, Condition
 from coupling.openfoam.foreign.files import Files
-from coupling.openfoam.poly_mesh import ROUND_OFF, PolyMesh, box
+from coupling.openfoam.poly_mesh import PolyMesh, box
+from sdph.laws.constants import ROUND_OFF
 from sdph.schema import CaseError
 
 CLOSED = ("cyclic", "cyclicAMI", "cyclicACMI", "cyclicSlip", "processor", "wedge")  # types of patches not known here

@@ -15,8 +15,8 @@ import numpy as np
 from sdph.effects.effect import Effect, Judgement
 from sdph.engine import table
 from sdph.engine.attitude import Attitude
-from sdph.engine.clock import SAME
 from sdph.laws.compiled import serial
+from sdph.laws.constants import ROUND_OFF
 from sdph.schema import CaseError, choice, file, quantity, record, refuse_implausible, vector
 
 LOOKS = 400  # instants of a run at which its motion is looked at: our choice
@@ -150,7 +150,7 @@ def _tabulated(own: Frame, until: float):
     times, values = columns["time_s"], np.array([columns[name] for name in COLUMNS[1:]])
     slopes = np.diff(values, axis=1) / np.diff(times)
     last, needed = own.start + times[-1], until if own.end is None else min(until, own.end)
-    if last < needed * (1.0 - SAME):
+    if last < needed * (1.0 - ROUND_OFF):
         ends = f"frame.table = {own.table!r} ends at {last:g} s and the run at {until:g} s"
         raise CaseError(
             f"{ends}; add rows, lower run.end_time_s, or set frame.end_s, from which on the frame is at rest"

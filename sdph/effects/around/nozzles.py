@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from sdph.effects.around import rates, sizes
-from sdph.effects.around.streams import ROUND_OFF, Streams, layers_of, streams_of
+from sdph.effects.around.streams import Streams, layers_of, streams_of
+from sdph.laws.constants import ROUND_OFF
 from sdph.schema import CaseError, choice, defaults, fields, file, quantity, record, vector, whole, words
 
 ONLY = {  # key -> shapes that have it, beside what _check_annulus, _check_table and half_angle refuse

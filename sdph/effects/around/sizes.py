@@ -17,7 +17,7 @@ from sdph.laws.break_up import sauter_diameter
 from sdph.schema import CaseError
 
 LAWS = ("log_normal", "rosin_rammler", "given")
-MOST = 64  # sizes at a place: each is a particle; our choice
+MOST_SIZES = 64  # sizes at a place: each is a particle; our choice
 OF_LAW = {  # key -> the law that has it
     "diameter": "log_normal", "diameter_std": "log_normal", "size_parameter": "rosin_rammler",
     "size_exponent": "rosin_rammler", "least_diameter": "rosin_rammler", "most_diameter": "rosin_rammler",
@@ -90,8 +90,10 @@ def check(case, where: str, nozzle) -> None:
         if OF_LAW[key] != nozzle.sizes:
             named = f"{where}.{_key(key)} is of sizes = {OF_LAW[key]!r}"
             raise CaseError(f"{named}; sizes = {nozzle.sizes!r}: leave it out, or change sizes")
-    if nozzle.size_classes > MOST or (nozzle.sizes == "given" and nozzle.size_classes > 1):
-        allowed = "1, as each size given is one" if nozzle.sizes == "given" else f"{MOST} at most: each is a particle"
+    if nozzle.size_classes > MOST_SIZES or (nozzle.sizes == "given" and nozzle.size_classes > 1):
+        allowed = (
+            "1, as each size given is one" if nozzle.sizes == "given" else f"{MOST_SIZES} at most: each is a particle"
+        )
         raise CaseError(f"{where}.size_classes = {nozzle.size_classes}; it must be {allowed}")
     if nozzle.sizes == "log_normal" and nozzle.size_classes > 1 and not _std(case.of(nozzle.material), nozzle):
         alike = "the grains are all alike: give diameter_std_mm"
@@ -117,8 +119,8 @@ def _check_rosin_rammler(where: str, nozzle) -> None:
 
 def _check_given(where: str, nozzle) -> None:
     sizes, shares = nozzle.diameters, nozzle.shares
-    if not sizes or any(isinstance(d, tuple) or not d > 0.0 for d in sizes) or len(sizes) > MOST:
-        raise CaseError(f"{where}.diameters_mm = {list(sizes or ())}; give 1 to {MOST} diameters above 0")
+    if not sizes or any(isinstance(d, tuple) or not d > 0.0 for d in sizes) or len(sizes) > MOST_SIZES:
+        raise CaseError(f"{where}.diameters_mm = {list(sizes or ())}; give 1 to {MOST_SIZES} diameters above 0")
     if shares and (len(shares) != len(sizes) or any(isinstance(s, tuple) or not s > 0.0 for s in shares)):
         told = f"give a share of the mass above 0 for each of the {len(sizes)} diameters, or none: equal shares"
         raise CaseError(f"{where}.shares = {list(shares)}; {told}")

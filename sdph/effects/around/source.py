@@ -18,7 +18,6 @@ import scipy
 from sdph.effects.around import by_nozzle, rates, sizes
 from sdph.effects.around.drops import Replays
 from sdph.effects.around.streams import (
-    ROUND_OFF,
     in_mouth,
     layers_of,
     matter_of,
@@ -30,6 +29,7 @@ from sdph.effects.around.streams import (
 from sdph.engine import state as particles
 from sdph.engine.kept import Unfit
 from sdph.engine.state import GRAIN, INFLOW, LIQUID
+from sdph.laws.constants import ROUND_OFF
 
 DEPTH = 4.0  # smoothing lengths of particles upstream: the density of those that the first grain sees is whole too
 BEHIND = 1.0  # l0 behind what the first of moving particles sees; swirl-sheet.md, section 2, 10

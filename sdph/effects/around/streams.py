@@ -12,10 +12,9 @@ import numpy as np
 from sdph.effects.around import rates
 from sdph.engine.rows import entry, place
 from sdph.laws.compiled import serial
-from sdph.laws.constants import TINY
+from sdph.laws.constants import ROUND_OFF, TINY
 from sdph.schema import CaseError
 
-ROUND_OFF = 1e-9  # of a spacing
 JITTER = 0.02  # of a spacing: places in an annulus, so that no row lines up; swirl-sheet.md, section 2, 10
 
 

@@ -15,10 +15,10 @@ from sdph.engine.geometry import SIDES
 from sdph.engine.walls import shapes
 from sdph.engine.walls.outline import outline
 from sdph.engine.world import ALONE
+from sdph.laws.constants import ROUND_OFF
 from sdph.schema import CaseError, choice, file, quantity, record, vector, words
 
 ALL = "tank"  # name of all walls of a tank in `run.forces`
-ROUND_OFF = 1e-9  # of a spacing: what stands so far outside stands in the wall
 
 
 @record

@@ -25,7 +25,7 @@ from sdph.laws.compiled import inlined, serial
 from sdph.schema import quantity, record
 
 ARRAYS = ("contact_xx", "contact_yy", "contact_xy", "contact_yz", "contact_zx")  # of the state [Pa]
-SAME = 1e-9  # of a viscosity that loops have reordered; our choice
+REORDERED = 1e-9  # of a viscosity that loops have reordered; our choice
 NEAR = 0.95  # of the onset: grains that close get there when they settle; our choice
 
 
@@ -157,7 +157,7 @@ def held(p, method) -> dict[str, float]:
     stiff = arrays.zeros(len(s.x), s.x, np.bool_)
     if method.step:
         density = s.density * (p.lightest / by_material(s.grain_density, p.grain_density))
-        stiff = method.scratch.rubbing >= (1.0 - SAME) * (stiffest(p, 1.0, method.step) * density)
+        stiff = method.scratch.rubbing >= (1.0 - REORDERED) * (stiffest(p, 1.0, method.step) * density)
     return found | {"contact_viscosity_share": limiter.share(s, stiff)}
 
 

@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 from sdph.effects.effect import Effect, Judgement
 from sdph.effects.gas import gel
+from sdph.laws.constants import ROUND_OFF
 from sdph.laws.real_gas import Vapour
 from sdph.schema import CaseError, choice, quantity, record, vector
 
-SAME = 1e-9  # of a length: round-off
 SMALLEST = 2.0  # spacings: radius of a hole that a kernel sees; our choice
 STEADY = 0.1  # of 1/w of the bubble in the liquid: longest step; our choice
 
@@ -98,10 +98,10 @@ def _check_hole(case, pool, before: list[Hole], hole: Hole) -> None:
     told, spacing = f"a bubble of radius {hole.radius:g} m at {list(hole.centre)}", case.resolution.spacing
     if not hole.radius >= SMALLEST * spacing:
         raise CaseError(f"{told} is below {SMALLEST:g} resolution.spacing_mm: enlarge it or give a finer spacing")
-    if math.dist(hole.centre, pool.centre) + hole.radius + spacing > pool.radius * (1.0 + SAME):
+    if math.dist(hole.centre, pool.centre) + hole.radius + spacing > pool.radius * (1.0 + ROUND_OFF):
         raise CaseError(f"{told} is not a spacing within the pool (bubble.centres_m, radii_m): move it or shrink it")
     for other in before:
-        if math.dist(hole.centre, other.centre) < (hole.radius + other.radius) * (1.0 - SAME):
+        if math.dist(hole.centre, other.centre) < (hole.radius + other.radius) * (1.0 - ROUND_OFF):
             raise CaseError(f"{told} overlaps the one at {list(other.centre)}: give one bubble, or move them apart")
 
 
@@ -112,7 +112,7 @@ def check_shell(case) -> None:
     for name, body in rings.items():
         apart = math.dist(pool.centre, body.centre)
         reach = apart + pool.radius
-        if apart < body.radius and reach > body.radius * (1.0 + SAME):
+        if apart < body.radius and reach > body.radius * (1.0 + ROUND_OFF):
             raise CaseError(
                 f"the pool around the bubbles reaches {reach:g} m from the middle of bodies.{name}, whose radius_m is "
                 f"{body.radius:g}: liquid would stand outside its shell; give it the shell's inner_radius_m, "

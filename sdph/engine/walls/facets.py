@@ -10,10 +10,11 @@ import scipy
 
 from sdph.engine import surface
 from sdph.engine.walls.surface_points import EVEN, SAMPLES, evened, passes
+from sdph.laws.constants import ROUND_OFF
 from sdph.schema import CaseError
 
+OPPOSITE = -0.5  # cosine of facets that look away from each other, by 120 degrees or more; our choice
 ORDER = np.array([1.0, 2.0**0.5, 3.0**0.5])  # one of two facets comes first by its normal along this: our choice
-SAME = 1e-9  # of a wall's extent: corners so near are one; round-off
 
 
 class Facets(NamedTuple):
@@ -175,7 +176,7 @@ def _doubled(corners: np.ndarray, half: float) -> np.ndarray:
     found, ahead = np.zeros(len(corners), bool), _turned(corners) @ ORDER[: corners.shape[2]] > 0.0
     for own, other in ((ahead, ~ahead), (~ahead, ahead)):
         if own.any() and other.any():
-            found[own] = np.abs(_distance(_drawn(corners[other], half), corners[own].mean(axis=1))) < SAME * half
+            found[own] = np.abs(_distance(_drawn(corners[other], half), corners[own].mean(axis=1))) < ROUND_OFF * half
     return found
 
 
@@ -275,7 +276,7 @@ def chains(corners: np.ndarray) -> list[np.ndarray]:
 def numbered(corners: np.ndarray) -> np.ndarray:
     """Numbers (F, d) of the points that corners of facets (F, d, d) are: those so near that they are one have one."""
     ends = corners.reshape(-1, corners.shape[2])
-    near = SAME * np.ptp(ends, axis=0).max()
+    near = ROUND_OFF * np.ptp(ends, axis=0).max()
     return np.unique(np.round(ends / near), axis=0, return_inverse=True)[1].reshape(corners.shape[:2])
 
 

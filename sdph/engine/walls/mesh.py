@@ -18,12 +18,12 @@ from sdph.engine.rows import entry, place, shorten
 from sdph.engine.walls.corners import SHARP
 from sdph.engine.walls.facets import ORDER
 from sdph.laws.compiled import serial
+from sdph.laws.constants import SAME
 
 AROUND = 0.75  # spacings about a surface point that count as its own: points stand one spacing apart or closer
 EDGE = math.cos(SHARP)
 BATCH = 4096  # surface points that are asked at once for those near them, which bounds their lists; our choice
 FEET = 16  # of the dummies nearest to one that are asked for a facet beyond an edge; our choice
-SAME = 1e-6  # of a depth: round-off; our choice
 
 
 def three(axes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

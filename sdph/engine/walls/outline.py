@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from sdph.engine import polygons
+from sdph.engine.walls.facets import OPPOSITE
 from sdph.schema import CaseError
 
 FINE = 64  # samples a spacing, by which a layer of wall ends where another wall begins; our choice
-# cosine of walls that look away from each other, by 120 degrees or more; share of a spacing for round-off: our choice
-OPPOSITE, ROUND_OFF = -0.5, 1e-6
+ROUND_OFF = 1e-6  # share of a spacing: our choice
 
 
 @dataclass(frozen=True)

@@ -18,13 +18,12 @@ import numpy as np
 from sdph.engine.lattice import grid
 from sdph.engine.surface import read
 from sdph.engine.walls import facets, nested, surface_points
+from sdph.engine.walls.facets import OPPOSITE
 from sdph.engine.walls.surface_points import arc, disc, line, rings
 from sdph.schema import CaseError
 
 UP = (0.0, 0.0, 1.0)  # axis of a round tank in space
-# cosine of facets that look away from each other, by 120 degrees or more; share of a spacing, or of a depth, that STL
-# rounds off: our choice
-OPPOSITE, ROUND_OFF = -0.5, 1e-3
+ROUND_OFF = 1e-3  # share of a spacing, or of a depth, that STL rounds off: our choice
 FINER = 3  # than the spacing is what a layer is measured by; odd, so that a lattice behind a plane stays; our choice
 SAME_PLACE = 1e-9  # of a depth: what is nearer to a surface is on it, and has no way from it; our choice
 

@@ -10,7 +10,7 @@ import scipy
 # places in a unit square that fill it evenly: Roberts 2018, after Korobov; 1/p and 1/p^2 of p^3 = p + 1
 EVEN = np.array([0.7548776662466927, 0.5698402909980532])
 SAMPLES = 16  # of the surface to a point: parts are then alike to a sixteenth or so; our choice
-ROUNDS = 8  # in which points come to the middle of their parts; 20 and 40 move none further (measured); our choice
+SETTLINGS = 8  # in which points come to the middle of their parts; 20 and 40 move none further (measured); our choice
 GOLDEN = math.pi * (3.0 - math.sqrt(5.0))  # rad, turn from ring to ring, so that rings do not line up
 
 
@@ -36,7 +36,7 @@ def middles(samples: np.ndarray, start: np.ndarray | None = None) -> tuple[np.nd
     point, which moves to their middle (Lloyd 1982, IEEE Trans. Inf. Theory 28, 129)."""
     points = samples[SAMPLES // 2 :: SAMPLES].copy() if start is None else start
     count = len(points)
-    for _ in range(ROUNDS):
+    for _ in range(SETTLINGS):
         own = scipy.spatial.cKDTree(points).query(samples)[1]
         number = np.bincount(own, minlength=count)
         sums = np.stack([np.bincount(own, column, minlength=count) for column in samples.T], axis=1)

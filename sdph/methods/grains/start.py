@@ -15,12 +15,12 @@ from sdph.engine.state import OF_MATERIAL, Grains, State, axes, born, empty, joi
 from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
 from sdph.engine.world import ALONE
+from sdph.laws.constants import ROUND_OFF
 from sdph.methods.grains import vessels
 from sdph.schema import CaseError
 
 # particles of two regions that may be near where they touch: this share, and so many (a disc on a box); our choice
 FEW, TOUCHING = 0.01, 4
-SAME = 1e-9  # of a spacing: round-off
 OFF = 0.03  # of the mass of a region, from which on it is told; our choice
 
 
@@ -77,7 +77,7 @@ def _look_for_overlap(case, places, notices) -> None:
         dense, alike = region.volume_fraction + beside.volume_fraction, region.material == beside.material
         if dense <= limit and not alike:
             continue
-        among = theirs[np.isfinite(cKDTree(own).query(theirs, distance_upper_bound=(1.0 + SAME) * near)[0])]
+        among = theirs[np.isfinite(cKDTree(own).query(theirs, distance_upper_bound=(1.0 + ROUND_OFF) * near)[0])]
         if len(among) <= FEW * min(len(own), len(theirs)) + TOUCHING:
             continue
         place = ", ".join(f"{a:.4g}" for a in among[0])
@@ -232,7 +232,7 @@ def staggered(case, name: str) -> float:
 
 def among(case, name: str) -> list[str]:
     """Regions of other materials that stand in the box around a region, and it itself, in the order of the case."""
-    own, found, least = case.particles[name], [], SAME * case.resolution.spacing
+    own, found, least = case.particles[name], [], ROUND_OFF * case.resolution.spacing
     low, high = extents(case, own)
     for other, region in case.particles.items():
         lower, upper = extents(case, region)

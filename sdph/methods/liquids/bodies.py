@@ -23,9 +23,9 @@ from sdph.engine import state as particles
 from sdph.engine.state import LIQUID, WALL
 from sdph.methods.liquids import start, walls
 from sdph.methods.liquids.forces import Moving
+from sdph.methods.liquids.openings import NEAREST
 from sdph.schema import CaseError
 
-NEAREST = 0.75  # spacings: what stands nearer to a body at the start stands in it; our choice
 BEFORE = 0.5  # spacings: half of what a liquid particle fills, which a polyline keeps it off
 
 

@@ -15,7 +15,7 @@ COLDEST, HOTTEST = (
     0.5,
     0.999,
 )  # of the critical temperature: beyond, a vapour's bubble is no longer followed; our choice
-ABOUT = 2.0  # spacings that the roomiest place of a void moves by at most in a window; our choice
+ROAMING = 2.0  # spacings that the roomiest place of a void moves by at most in a window; our choice
 
 
 def remedy(case) -> str:
@@ -113,7 +113,7 @@ class Content:
 
     def look(self, grid: pores.Grid) -> None:
         """Look for the void in a torn shell, about where it was: `pore`, None where all there is filled."""
-        self.grid, radius = grid, self.radius if self.short is None else ABOUT * grid.cell / pores.FINE
+        self.grid, radius = grid, self.radius if self.short is None else ROAMING * grid.cell / pores.FINE
         deep = pores.start(grid, self.rim, radius)
         self.pore = None if deep is None else pores.pore(grid, deep)
 

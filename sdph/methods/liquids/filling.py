@@ -17,12 +17,12 @@ import numpy as np
 from sdph.effects.around import tank
 from sdph.engine.lattice import grid
 from sdph.engine.walls import layers, shapes
+from sdph.laws.constants import ROUND_OFF
 from sdph.methods.liquids import packing
 from sdph.methods.liquids.sections import Pool
 from sdph.schema import CaseError, record
 
 FINER = 4  # than the spacing are the cells that a pipe, a few spacings wide, is measured by; our choice
-SAME = 1e-9  # of a spacing: round-off
 
 
 class Slab(NamedTuple):
@@ -124,7 +124,7 @@ def levels(shape, up, fills, spacing: float) -> np.ndarray:
 
 def _cells(low, high, spacing: float) -> tuple[np.ndarray, np.ndarray]:
     """(N, d) middles of equal cells between two corners, and their sides (d,) [m], no longer than `spacing`."""
-    counts = np.ceil((high - low) / spacing - SAME).astype(int)
+    counts = np.ceil((high - low) / spacing - ROUND_OFF).astype(int)
     steps = (high - low) / counts
     return grid([a + (np.arange(n) + 0.5) * step for a, n, step in zip(low, counts, steps)]), steps
 
@@ -161,7 +161,7 @@ def fill(case, pool: Filled) -> np.ndarray:
         outside = np.maximum(np.maximum(shape.pipe.distance(points), -from_tank), from_slab)
         outside[wet] = np.inf
         wet = np.concatenate([wet, _deepest(outside, _buffer(shape, slab, spacing / FINER), spacing, len(slab.up))])
-    lid = (shape.distance(points) <= SAME * spacing) & (from_slab > 0.0) & (from_slab < reach)
+    lid = (shape.distance(points) <= ROUND_OFF * spacing) & (from_slab > 0.0) & (from_slab < reach)
     walls = layers.wall_points(shape, spacing, tank.layers(case))
     between = slab._replace(low=slab.low + 0.5 * layer, high=slab.high - 0.5 * layer)
     return packing.pack(case, points[wet], walls, points[lid], between, shape)
@@ -200,4 +200,4 @@ def _buffer(shape, slab: Slab, spacing: float) -> float:
 
 def _deepest(beyond, volume: float, spacing: float, dimensions: int) -> np.ndarray:
     """Rows of as many points as a volume [m^d] asks for, those that lie least `beyond` (N,) [m] its limits."""
-    return np.argsort(np.round(beyond / (SAME * spacing)), kind="stable")[: round(volume / spacing**dimensions)]
+    return np.argsort(np.round(beyond / (ROUND_OFF * spacing)), kind="stable")[: round(volume / spacing**dimensions)]

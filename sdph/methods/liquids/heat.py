@@ -22,10 +22,9 @@ from sdph.engine import kernels as smoothing
 from sdph.engine.geometry import apart
 from sdph.laws import exchange
 from sdph.laws.compiled import serial
-from sdph.laws.constants import SOFTENING
+from sdph.laws.constants import ROUND_OFF, SOFTENING
 
 FACE = 0.5  # of h: how far the liquid that faces a void lies behind its face, in the mean; our choice
-SAME = 1e-9  # of a limit: round-off
 # of the heat m c T of all: of less that is exchanged 1e-10 (sdph.running.balances) is below 1e-15 of all heat, the
 # round-off of its sums, so that there is nothing to relate a drift to (as in sdph.engine.ledger); our choice
 TOLD = 1e-5
@@ -68,7 +67,7 @@ class Heat:
         if not time > 0.0:
             return
         self._find()
-        count = max(1, math.ceil(time / self.longest - SAME))
+        count = max(1, math.ceil(time / self.longest - ROUND_OFF))
         for _ in range(count):
             self._step(time / count)
 

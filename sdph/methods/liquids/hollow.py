@@ -11,8 +11,7 @@ import numpy as np
 
 from sdph.engine import polygons
 from sdph.engine import state as particles
-
-SAME = 1e-6  # of a radius: round-off
+from sdph.laws.constants import SAME
 
 
 class Hollow:

@@ -22,6 +22,7 @@ from sdph.effects.liquids import shifting
 from sdph.engine import kernels as smoothing
 from sdph.engine import state as particles
 from sdph.engine.geometry import apart
+from sdph.engine.ledger import IN, OUT
 from sdph.engine.rows import entry
 from sdph.engine.state import INFLOW, LIQUID
 from sdph.laws.compiled import parallel
@@ -29,7 +30,6 @@ from sdph.methods.liquids.equations import by_pair
 from sdph.methods.liquids.forces import body
 from sdph.methods.liquids.totals import specific_energies
 
-IN, OUT = 0, 1
 FREE = (0.0, 0.0, 0.0)
 NEAREST = 0.75  # spacings: liquid that stands nearer to what waits stands in its place; our choice
 

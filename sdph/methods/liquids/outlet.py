@@ -10,11 +10,11 @@ import numpy as np
 from sdph.effects.around import drain, tank
 from sdph.engine import state as particles
 from sdph.engine.kept import GROWING, Unfit
+from sdph.engine.ledger import IN
 from sdph.engine.state import WALL
-from sdph.methods.liquids.openings import IN
 from sdph.methods.liquids.totals import specific_energies
 
-ROUND_OFF = 1e-12  # of a particle's mass: less than that is nothing
+CRUMB = 1e-12  # of a particle's mass: less than that is nothing
 
 
 class Lowest(NamedTuple):
@@ -71,9 +71,9 @@ class Outlet:
         if self.form == "paper":
             owed = self.particle * np.floor(owed / self.particle + 0.5)
         # a tank of whole particles may hold half a one less
-        while owed > ROUND_OFF * self.particle and (lowest := self._lowest(owed)):
+        while owed > CRUMB * self.particle and (lowest := self._lowest(owed)):
             left = owed - np.cumsum([one.mass for one in lowest])
-            whole = lowest[: np.count_nonzero(left >= -ROUND_OFF * self.particle)]
+            whole = lowest[: np.count_nonzero(left >= -CRUMB * self.particle)]
             if not whole:
                 self._take_from(lowest[0], owed)
                 break

@@ -19,7 +19,7 @@ from sdph.engine.walls import parts, patches, shapes
 from sdph.laws.constants import TINY
 from sdph.methods.liquids import walls
 
-SINGULAR = 1e-3  # of the largest of what loads do: no wall that is wet has a normal along it; our choice
+UNMOVED = 1e-3  # of the largest of what loads do: no wall that is wet has a normal along it; our choice
 # times as much as by their directions, pressures change by one share everywhere: liquid stands a little further than
 # half a spacing from every wall, so that their sum is too large by what the gap would hold; our choice (blocks are
 # lifted to 4 % by 3 and 30 too)
@@ -64,7 +64,7 @@ class Surface:
         even, missing = push @ self.area, whole - pressure @ self.area
         told = stepper.world.sum(np.concatenate((square.ravel(), even, missing, [push @ size, size.sum()])))
         by, missing = np.column_stack((told[:9].reshape(3, 3), EVENLY * told[9:12])), told[12:15]
-        change = np.linalg.pinv(by, rcond=SINGULAR / EVENLY) @ missing
+        change = np.linalg.pinv(by, rcond=UNMOVED / EVENLY) @ missing
         share = (push / told[15] if told[15] else here / told[16]) * np.linalg.norm(self.areas, axis=2)
         rest = share[..., None] * (missing - by @ change)
         return (pressure + push * (normal @ change[:3] + EVENLY * change[3]))[:, None] * self.areas + rest

@@ -9,8 +9,8 @@ import numpy as np
 import scipy
 
 from sdph.laws.compiled import serial
+from sdph.methods.liquids.pores import FINE
 
-FINE = 0.5  # spacings: a cell; gel-droplet.md, section 2
 # spacings: how far a particle fills; a lattice of one spacing fills its emptiest place to 0.97; our choice
 REACH = 1.5
 # of a filled place: below it a cell is empty, a lone missing particle is not; our choice

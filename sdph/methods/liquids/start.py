@@ -20,7 +20,7 @@ from sdph.laws.liquids import quadrupole, taylor_green, wave
 from sdph.methods.liquids import filling, pressures
 from sdph.schema import CaseError
 
-ROUNDS = 50  # of the inversion of Van der Waals' equation; each takes off nine tenths of the error or more
+INVERSIONS = 50  # of the inversion of Van der Waals' equation; each takes off nine tenths of the error or more
 
 
 def fill(case, world=ALONE) -> particles.State:
@@ -155,7 +155,7 @@ def _density(case, pool, pressure) -> np.ndarray:
     cohesion = phase.cohesion if pool.phase == "gas" else 0.0
     total = pressure + background
     density = eos.tait_density(total, phase.density, sound, phase.exponent, background)
-    for _ in range(ROUNDS if cohesion else 0):
+    for _ in range(INVERSIONS if cohesion else 0):
         density = eos.tait_density(total + cohesion * density**2, phase.density, sound, phase.exponent, background)
     return density
 

@@ -16,12 +16,11 @@ from sdph.effects.around.outflow import open_sides
 from sdph.effects.around.source import Source
 from sdph.engine import arrays
 from sdph.engine import state as particles
+from sdph.engine.ledger import IN, OUT
 from sdph.engine.state import INFLOW, LIQUID
 from sdph.engine.world import ALONE
 from sdph.laws.compiled import parallel
 from sdph.methods.mps import alone, annulus, pieces, tanks
-
-IN, OUT = 0, 1
 
 
 class Openings:

@@ -14,11 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from sdph.engine.ledger import both, ratio, vector
+from sdph.engine.ledger import IN, OUT, both, ratio, vector
 from sdph.engine.sums import Sums
 from sdph.methods.mps import alone
 from sdph.methods.mps.method import WORKS
-from sdph.methods.mps.openings import IN, OUT
 
 FLOWS = ("injected_kg", "injected_J", "left_kg", "left_J")
 AMOUNTS = (*(f"work_of_{name}_J" for name in WORKS), "fallen_J", "drawn_J", *FLOWS)

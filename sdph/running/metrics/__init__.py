@@ -40,7 +40,7 @@ AT_OUTPUTS = {
     "sizes": sizing.metrics,
 }
 IN_THE_END = {"bubble": bed_in_the_end}
-ROUND_OFF = 1e-12  # of a time
+SAME_TIME = 1e-12  # of a time
 
 
 def row(simulation) -> dict[str, float]:
@@ -87,6 +87,6 @@ def summary(case, rows: list[dict]) -> dict[str, float]:
 
 def means(rows: list[dict], since: float) -> dict[str, float]:
     """mean_NAME of each number over the outputs from `since` [s] on; none where that is 0 or after the last output."""
-    own = [row for row in rows if row["time_s"] >= since * (1.0 - ROUND_OFF)] if since > 0.0 else []
+    own = [row for row in rows if row["time_s"] >= since * (1.0 - SAME_TIME)] if since > 0.0 else []
     columns = [key for key in own[0] if key != "time_s"] if own else []
     return {f"mean_{key}": sum(row[key] for row in own) / len(own) for key in columns}

@@ -12,6 +12,7 @@ from sdph.case import fluids
 from sdph.effects.around import drain, tank
 from sdph.engine import state as particles
 from sdph.engine.state import LIQUID
+from sdph.laws.constants import SAME
 from sdph.methods.liquids import bodies, filling
 from sdph.methods.liquids.bounds import limits as limits_of_step
 from sdph.methods.liquids.liquid import SLOW
@@ -19,7 +20,6 @@ from sdph.schema import CaseError
 from sdph.study.explain import edges, estimate, feed, prices, ruling, tanks
 
 WATER = 0.0728  # N/m, of water in air at 20 C (IAPWS R1-76): for the Weber and Bond numbers of a case that gives none
-SAME = 1e-6  # of a spacing: round-off of corners
 # of a step: neighbours and forces made anew where a drain has taken particles; measured, 9943 in a cylinder on its side
 REMOVING = 2.3
 KEYS_OF_PIPE = "give tank.outlet_radius_m and outlet_length_m"

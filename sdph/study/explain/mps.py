@@ -10,7 +10,7 @@ from sdph.methods.mps.method import limits as limits_of_step
 from sdph.study.explain import edges, estimate, feed, prices, ruling
 from sdph.study.explain.liquids import WATER
 
-LAYERS = 3.0  # across a film: with two every particle is at a surface; swirl-sheet.md, section 2, 5
+ACROSS = 3.0  # across a film: with two every particle is at a surface; swirl-sheet.md, section 2, 5
 # of the tension of drops that is not there: their pressure in 1/R has 0.42 of it (validation/moving_particles)
 TENSION_OFF = 0.58
 TENSION_WHY = (
@@ -53,8 +53,8 @@ def ratios(s) -> list[dict]:
     why = (
         "one layer or two are all surface, and where a film is one spacing thick it tears by the method, not by nature"
     )
-    safe = "yes" if value >= LAYERS else "NO"
-    return [{"ratio": "width / spacing", "value": value, "least": LAYERS, "most": math.inf, "safe": safe, "why": why}]
+    safe = "yes" if value >= ACROSS else "NO"
+    return [{"ratio": "width / spacing", "value": value, "least": ACROSS, "most": math.inf, "safe": safe, "why": why}]
 
 
 def warnings(s) -> list[str]:

@@ -23,6 +23,7 @@ from sdph.effects.gas import evaporation, reaction
 from sdph.effects.grains import friction, granular_pressure
 from sdph.engine.clock import count_of_parts
 from sdph.exchange.window import GRIP, MOST, Window, held, settling, smallest_cell
+from sdph.laws.constants import HALVINGS
 from sdph.methods.grains import ways
 from sdph.methods.grains.method import limits as limits_of_step
 from sdph.methods.grains.scales import scales_of
@@ -30,7 +31,6 @@ from sdph.methods.grains.sound import swing, waves_of
 from sdph.study.explain import feed
 
 ACROSS = 6.0  # smoothing lengths: grains less than three kernels across are all rim, and hold no bubble
-HALVINGS = 60  # of the bracket of a volume fraction: to round-off
 
 
 class Pace(NamedTuple):

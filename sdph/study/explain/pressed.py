@@ -9,7 +9,7 @@ from sdph.effects.grains import friction
 from sdph.laws.granular import PACKING_MARGIN
 from sdph.methods.grains import start
 
-HALF = 0.5  # of the weight on the floor: what contacts bear half-way up a bed at rest
+HALF_WEIGHT = 0.5  # of the weight on the floor: what contacts bear half-way up a bed at rest
 
 
 def warnings(case) -> list[str]:
@@ -43,5 +43,5 @@ def _calm(case, region, potential: float) -> tuple[float, float, float] | None:
 
     if excess(given, 1.0) <= 0.0:
         return None
-    calm = brentq(excess, p.onset, p.packing - PACKING_MARGIN, args=(HALF,))
+    calm = brentq(excess, p.onset, p.packing - PACKING_MARGIN, args=(HALF_WEIGHT,))
     return friction.pressure(p, given)[0], given * density * potential, calm

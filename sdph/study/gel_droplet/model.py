@@ -13,11 +13,9 @@ import numpy as np
 from sdph.effects.gas import gel
 from sdph.laws import cavities, real_gas, shells, strength
 from sdph.laws import gel_droplet as law
+from sdph.laws.swelling import FAST, SPOT_GROWTH
 from sdph.schema import CaseError
 from sdph.study.gel_droplet.sections import Droplet
-
-SPOT = 20.0  # of numerics.growth_step: the spot's hoop strain may grow so much in a step; by convergence
-FAST = 2.0  # of numerics.growth_step, beyond which a step is taken again, shorter; our choice
 
 
 class Model:
@@ -104,7 +102,7 @@ class Model:
         )  # fmt: skip
         hoop = self._necked(dt, spot) if self.bubble.void > 0.0 else math.nan
         step = self.own.numerics.growth_step
-        if not (abs(hoop - self.hoop) < SPOT * step and abs(self.ratio() - ratio) < FAST * step):
+        if not (abs(hoop - self.hoop) < SPOT_GROWTH * step and abs(self.ratio() - ratio) < FAST * step):
             self.bubble, self.rows = old, rows
             return False
         pressure = self._gauge()

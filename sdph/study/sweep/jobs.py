@@ -19,9 +19,8 @@ from sdph import scenes
 from sdph.case import read as cases
 from sdph.running import inputs, output, vessel
 from sdph.schema import CaseError
-from sdph.study.apart import FINE, ended, environment, reason
+from sdph.study.apart import BAD_INPUT, FINE, WENT_UNSTABLE, ended, environment, reason
 
-BAD_INPUT, WENT_UNSTABLE = 2, 5  # exit codes of `sdph run`
 LASTING = (BAD_INPUT, WENT_UNSTABLE)  # failures that come again when nothing is changed
 RUNS = "runs"  # folder in that of the sweep
 NAME, EACH, HASH = 60, 24, 8  # letters of a folder's name; of one value in it

@@ -16,10 +16,10 @@ import numpy as np
 from sdph.engine.table import read_cells
 from sdph.schema import CaseError
 
-MOST = 10_000  # runs of a sweep; our choice: more is a slip
+MOST_RUNS = 10_000  # runs of a sweep; our choice: more is a slip
 PARTS = re.compile(r"""(?:"[^"]*"|'[^']*'|\[(?:[^\[\]]|\[[^\[\]]*\])*\]|[^,])+""")
 RANGE = re.compile(r"([^:]+):([^:]+):(\d+)")
-DIGITS = 12  # of a number of a range
+DIGITS_OF_RANGE = 12  # of a number of a range
 
 
 def points(sets: list[str], table: Path | None = None) -> list[dict[str, str]]:
@@ -38,8 +38,8 @@ def points(sets: list[str], table: Path | None = None) -> list[dict[str, str]]:
     if both:
         raise CaseError(f"--set {min(both)}: it is a column of {table} too; leave one of them out")
     count = len(rows) * math.prod(len(own) for own in keys.values())
-    if count > MOST:
-        raise CaseError(f"that makes {count} runs; a sweep has {MOST} at most: give fewer values")
+    if count > MOST_RUNS:
+        raise CaseError(f"that makes {count} runs; a sweep has {MOST_RUNS} at most: give fewer values")
     grid = [dict(zip(keys, combination)) for combination in itertools.product(*keys.values())]
     return [row | own for row in rows for own in grid]
 
@@ -62,13 +62,13 @@ def _range(text: str, told: str) -> list[str]:
         return [text]
     if not match:
         return [text]
-    if not (math.isfinite(low) and math.isfinite(high) and 2 <= count <= MOST):
+    if not (math.isfinite(low) and math.isfinite(high) and 2 <= count <= MOST_RUNS):
         raise CaseError(f"--set {told}: {text} must be a:b:n, n a whole number of at least 2, such as 1:5:3")
     whole = all(number == int(number) and "." not in part for number, part in ((low, match[1]), (high, match[2])))
     numbers = np.linspace(low, high, count).tolist()
     if whole and all(number == int(number) for number in numbers):  # for keys that must be whole
         return [str(int(number)) for number in numbers]
-    return [repr(float(f"{number:.{DIGITS}g}")) for number in numbers]
+    return [repr(float(f"{number:.{DIGITS_OF_RANGE}g}")) for number in numbers]
 
 
 def _rows(table: Path) -> list[dict[str, str]]:
