@@ -5,6 +5,12 @@ import numpy as np
 from coupling.gas import Budget, GasState, Mesh
 
 
+def budget(case, mass, energy, momentum=(0.0, 0.0, 0.0), **told):
+    """Totals of a gas of a mass [kg] and an energy [J] that nothing has crossed the boundaries of."""
+    crossed = {name: [0.0] * 4 for name in case.boundaries}
+    return Budget(mass, energy, 0.0, momentum, 0.0, 0.0, 0.0, 0.0, crossed=crossed, **told)
+
+
 class StillGas:
     """Stands in for a gas solver where only the particle side is under test. Constant density, no conduction."""
 
@@ -45,8 +51,6 @@ class StillGas:
         gas = self.case.gas
         mass = float((self.alpha * self.mesh.volumes).sum() * gas.density)
         energy = float((self.alpha * self.temperature * self.mesh.volumes).sum() * gas.density * gas.heat_capacity)
-        crossed = {name: [0.0] * 4 for name in self.case.boundaries}
-        budget = Budget(mass, energy, 0.0, (0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0, crossed=crossed)
         fields = {
             "velocity": zeros,
             "pressure": zeros[:, 0],
@@ -54,4 +58,4 @@ class StillGas:
             "temperature": self.temperature.copy(),
         }
         rest = {"density": np.full(len(zeros), gas.density), "power": zeros[:, 0]}
-        return GasState(self.time, fields | rest, budget)
+        return GasState(self.time, fields | rest, budget(self.case, mass, energy))

@@ -3,8 +3,9 @@
 import math
 
 import numpy as np
+from fakes import budget
 
-from coupling.gas import IMPULSES, Budget, GasState, Mesh
+from coupling.gas import IMPULSES, GasState, Mesh
 from sdph import effects
 from sdph.case import read as cases
 from sdph.engine.ledger import Ledger
@@ -126,17 +127,15 @@ class Row:
         zeros, cells = np.zeros(len(self.velocity)), len(self.velocity)
         total = (self.mass * self.mesh.volumes[:, None] * self.velocity).sum(axis=0)
         kinetic = 0.5 * self.mass * float(self.mesh.volumes @ (self.velocity**2).sum(axis=1))
-        own = self.mass * self.mesh.volumes.sum(), self.heat, 0.0, tuple(total), 0.0, 0.0, 0.0, 0.0
+        own = self.mass * self.mesh.volumes.sum(), self.heat, tuple(total)
         told = {name: tuple(impulse.tolist()) for name, impulse in self.impulses.items()}
         still = {name: np.zeros((3, 3)).tolist() for name in self.case.boundaries}
-        shut = {name: [0.0] * 4 for name in self.case.boundaries}
-        budget = Budget(*own, kinetic=kinetic, patches=still, crossed=shut, **told)
         fields = {
             "velocity": self.velocity.copy(), "pressure": zeros,
             "pressure_gradient": np.tile(self.gradient, (cells, 1)), "temperature": zeros + 300.0,
             "density": zeros + self.case.gas.density, "power": self.power,
         }  # fmt: skip
-        return GasState(self.time, fields, budget)
+        return GasState(self.time, fields, budget(self.case, *own, kinetic=kinetic, patches=still, **told))
 
 
 def started(case, folder, gas=None):

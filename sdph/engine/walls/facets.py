@@ -135,7 +135,11 @@ class Surface:
 def parts(corners: np.ndarray) -> np.ndarray:
     """Number (F,), from 0, of the part that each of the facets (F, d, d) is of: those of a part hang together by their
     corners."""
-    point = numbered(corners)
+    return hanging_together(numbered(corners))
+
+
+def hanging_together(point: np.ndarray) -> np.ndarray:
+    """The same of facets whose corners have the numbers point (F, d)."""
     first = np.repeat(point[:, 0], point.shape[1])
     links = scipy.sparse.coo_matrix((np.ones(point.size), (point.ravel(), first)), shape=(point.max() + 1,) * 2)
     return scipy.sparse.csgraph.connected_components(links, directed=False)[1][point[:, 0]]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
 from sdph.engine.walls import facets
 from sdph.schema import CaseError
@@ -24,9 +23,7 @@ class Part(NamedTuple):
 def parts(surface) -> list[Part]:
     """Parts of a surface (pyvista) of triangles without open edges."""
     points, triangles = np.asarray(surface.points, float), surface.faces.reshape(-1, 4)[:, 1:]
-    links = scipy.sparse.coo_matrix((np.ones(triangles.size), (triangles.ravel(), np.repeat(triangles[:, 0], 3))),
-                                    shape=(len(points),) * 2)  # fmt: skip
-    number = scipy.sparse.csgraph.connected_components(links, directed=False)[1][triangles[:, 0]]
+    number = facets.hanging_together(triangles)
     own = [points[triangles[number == n]] for n in np.unique(number)]  # (F, 3, 3) each
     outwards = [facets.enclosed(part) < 0.0 for part in own]
     around = np.zeros(len(own), int)  # rooms that each lies in
