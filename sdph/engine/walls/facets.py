@@ -96,12 +96,12 @@ class Surface:
     @property
     def closed(self) -> bool:
         """True where no side of a facet is free; of lines, where each end meets another."""
-        return not len(self._free())
+        return not len(self.free())
 
     def rims(self) -> list[tuple[np.ndarray, float]]:
         """Middle (d,) [m] and length [m] of each row of free sides that hang together, the shortest first; of lines
         each free end, its length 0, as they stand in the file."""
-        free = self._free()
+        free = self.free()
         if not len(free):
             return []
         if self.flat:
@@ -113,7 +113,7 @@ class Surface:
         found = [(free[row == n].mean(axis=(0, 1)), float(length[row == n].sum())) for n in range(row.max() + 1)]
         return sorted(found, key=lambda rim: rim[1])
 
-    def _free(self) -> np.ndarray:
+    def free(self) -> np.ndarray:
         """Sides (E, 2, 3) [m] that one triangle alone has; of strips, those at the ends of lines: their rims are free
         too."""
         if not self.mesh.n_cells:

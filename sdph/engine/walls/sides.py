@@ -13,7 +13,7 @@ from sdph.engine.geometry import SIDES
 from sdph.engine.neighbours import Neighbours
 from sdph.engine.rows import Rows
 from sdph.engine.walls import corners as corners_of_mesh
-from sdph.engine.walls import facets, parts
+from sdph.engine.walls import facets, hidden, parts
 from sdph.engine.walls import mesh as sides
 from sdph.engine.walls.dummies import BESIDE, Dummies, Wall, plain, seen, turned
 from sdph.laws.kernels import SUPPORT
@@ -139,6 +139,7 @@ def dummies(case) -> Placed:
     found = [] if _vessel(own) else [_box(case)]
     if own.mesh:
         corners, slip, _, owner = facets.walls(own.mesh, case.dimensions, own.mesh_scale)
+        found = [_in_sight(box, corners) for box in found]
         whose = OWNED + owner if _vessel(own) else np.full(len(slip), 1)
         behind = [
             _behind_facets(corners[slip == slips], whose[slip == slips], case, slips)
@@ -188,6 +189,12 @@ def _box(case) -> Placed:
                 table[slides[keep] & single, 8 : 8 + d] = boundary.velocity[:d]  # corners are at rest
     none = np.zeros(len(table))  # the area is that of faces (sdph.engine.walls.faces)
     return Placed(table, none, np.zeros((len(table), 3), int), feet, np.zeros((len(table), 3, 3)), none > 0.0)
+
+
+def _in_sight(box: Placed, corners: np.ndarray) -> Placed:
+    """Those of the sides that do not stand behind the facets of a mesh, where its own do."""
+    seen = ~hidden.behind(corners, box.table[:, : corners.shape[2]])
+    return Placed(*(own[seen] for own in box))
 
 
 def _closed(case, points, side: str) -> np.ndarray:

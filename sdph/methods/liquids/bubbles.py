@@ -289,8 +289,7 @@ class Bubbles:
         return told
 
     def summary(self) -> dict[str, float]:
-        """What there is in the end; `bubble_impulse_rel` is the impulse by which the push of closed voids was off, over
-        all of that push."""
+        """Bubbles in the end; `bubble_impulse_rel`: impulse that closed voids push too much, over all."""
         off = float(np.hypot(*self.unclosed))
         told = {f"bubble_{number}_diameter_m": 2.0 * part.radius for number, part in enumerate(self.parts, 1)}
         told |= {"bubbles_left": len(self.left), "bubbles_merged": self.merged, "bubbles_closed": self.closed}
