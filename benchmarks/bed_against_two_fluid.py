@@ -21,8 +21,6 @@ from coupling.openfoam.comparators import run as comparators
 from sdph import scenes
 from sdph.case import read as cases
 
-ROUNDS, GAS = int((sys.argv[1:2] or ["3"])[0]), (sys.argv[2:3] or ["embedded"])[0]
-
 
 def timed(work) -> tuple[float, float]:
     """Wall time and processor time [s] of the programs that `work` runs."""
@@ -36,11 +34,11 @@ def used() -> float:
     return spent.ru_utime + spent.ru_stime
 
 
-def main():
+def main(rounds: str = "3", gas: str = "embedded"):
     case = cases.load(scenes.find("bubbling_bed")[1])
-    command = [sys.executable, "-m", "sdph.cli", "run", "bubbling_bed", "--gas", GAS, "--out"]
+    command = [sys.executable, "-m", "sdph.cli", "run", "bubbling_bed", "--gas", gas, "--out"]
     times = []
-    for number in range(ROUNDS + 1):  # the first compiles
+    for number in range(int(rounds) + 1):  # the first compiles
         with tempfile.TemporaryDirectory() as folder:
             comparators.shelf = lambda place=Path(folder): place / "references"  # nothing comes from earlier runs
             ours = timed(
@@ -58,4 +56,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:3])

@@ -44,8 +44,12 @@ STEPS, BY_MPS = 2, "mps:"
 
 def loops_of(scene: str, *keys: str) -> list:
     """(loop, types of what it takes) of a scene's start and first steps."""
-    case = cases.load(scenes.find(scene)[1], keys)
-    with assembled.Heard() as heard:
+    return loops_in(cases.load(scenes.find(scene)[1], keys), assembled.Heard())
+
+
+def loops_in(case, ear) -> list:
+    """(loop, types of what it takes) that `ear` hears of in a case's start and first steps."""
+    with ear as heard:
         if case.grains:
             of_grains(case)
         else:
@@ -66,7 +70,9 @@ def of_grains(case) -> None:
     mesh = SimpleNamespace(
         centres=centres, volumes=np.ones(len(centres)), depth=1.0, dimensions=case.dimensions, spread=None
     )  # fmt: skip
-    fields = {name: np.ones(len(centres)) for name in ("density", "temperature")} | {"velocity": np.zeros_like(centres)}
+    fields = {name: np.ones(len(centres)) for name in ("density", "temperature")}
+    fields["vapour_mass_fraction"] = np.zeros(len(centres))
+    fields |= {name: np.zeros_like(centres) for name in ("velocity", "vorticity")}
     gas = SimpleNamespace(fields=fields | {"power": np.zeros(len(centres))}, time=0.0)
     exchange = Exchange(case, mesh, own.parameters)
     transfer = Transfer(mesh, case.smoothing_length)

@@ -57,8 +57,8 @@ def sources(centres: np.ndarray, speed: np.ndarray, t: float) -> dict[str, np.nd
     beta = 150.0 * alpha_p**2 * 1.8e-5 / ((1.0 - alpha_p) * GRAIN**2) + 1.75 * alpha_p * 1.225 * speed / GRAIN
     eps = 3e5 * alpha_p
     return {
-        "alpha_g": 1.0 - alpha_p, "drag": beta, "drag_velocity": beta[:, None] * np.array([0.0, 0.1, 0.0]),
-        "heat": eps, "heat_temperature": eps * 300.0,
+        "alpha_g": 1.0 - alpha_p, "momentum_coefficient": beta, "momentum": beta[:, None] * np.array([0.0, 0.1, 0.0]),
+        "heat_coefficient": eps, "heat": eps * 300.0,
     }  # fmt: skip
 
 

@@ -2,82 +2,133 @@
 
     python benchmarks/off_costs_nothing.py [effect ...]
 
-For each effect that has terms in the loops over particles (sdph/methods/grains/equations.py,
-sdph/methods/grains/contacts.py), these are compiled for a bubbling bed with the effect off, once from the source and
-once from the source in which every call of a function of the effect's file is replaced by what that function gives when
-it is off. Identical instructions take the same time on any machine and under any load, which no timing can show. Serial
-builds are compared: threads share out the same body.
+Scenes begin and take two steps, as they are and without each of their effects, in which their loops are heard of with
+the types of what they take. A loop has terms of an effect where it takes parameters of its file when that is on. There
+it is compiled for the types that it takes when the effect is off, once as it stands and once built without the terms
+(without_terms.py). The same instructions take the same time on any machine and under any load, which no timing can
+show. Builds of one thread are compared: threads share out the same body.
+
+An effect without such a loop is named with the reason. Not looked at is what Python decides once a step or a window.
+
+Where the texts differ instructions are counted by what they do. The same number of each is the same work: registers
+have other names, a load stands a line earlier. Else it is told how many only one of them has.
 """
 
-import ast
-import importlib.util
 import inspect
 import re
 import sys
-import tempfile
-from pathlib import Path
+from collections import Counter
+from typing import NamedTuple
 
-import numpy as np
-from numba import njit
+from cuda_kernels import loops_in
+from numba import typeof
+from without_terms import Rebuilt
 
 from sdph import effects, scenes
 from sdph.case import read as cases
 from sdph.effects.effect import OFF
-from sdph.laws.compiled import FAST
-from sdph.methods.grains import contacts as shearing
-from sdph.methods.grains import equations as rates
+from sdph.engine.gpu.assembled import Heard, name_of
+from sdph.engine.gpu.translation import results
+from sdph.schema import CaseError
 from sdph.study.explain import effect_costs
 from sdph.study.explain.tables import table
 
-LOOPS = {"sum_density": rates, "shear": shearing, "constitutive": rates, "rates": rates}
+COARSE = {"bubbling_bed": effect_costs.BED}
+# of which only loops that take neither rows nor parameters are run, which saves to compile the others
+HEARD = (
+    "bubbling_bed", "segregation", "lifted_grains", "dam_break", "taylor_green", "sloshing_sphere",
+    "power_law_poiseuille", "gel_droplet",
+)  # fmt: skip
+# of which all are run: what comes next is ruled by what they find
+RUN = ("radiating_grains", "single_droplet", "capillary_wave", "swirl_sheet", "taylor_bar", "thick_ring")
 NAME = re.compile(r"[.$\w@]*[A-Za-z_][.$\w@]*")
+HOMES = {file.EFFECT.name: file.__name__ for file in effects.FILES}
+SAME, MOVED = "identical", "the same instructions in another order"
 
 
-class Strip(ast.NodeTransformer):
-    """Replaces the calls of an effect's functions by what they give when it is off."""
+class Ear(Heard):
+    """Loops that were called; those that take rows, or parameters of effects, are run where `runs`, else return
+    zeros."""
 
-    def __init__(self, effect: str):
-        self.effect, self.module = effect, getattr(effects, effect)
+    def __init__(self, runs: bool):
+        super().__init__()
+        self.runs = runs
 
-    def visit_Call(self, node):
-        self.generic_visit(node)
-        of = node.func
-        if not (isinstance(of, ast.Attribute) and isinstance(of.value, ast.Name) and of.value.id == self.effect):
-            return node
-        function = getattr(self.module, of.attr).py_func
-        try:
-            given = function(OFF, *[None] * (len(inspect.signature(function).parameters) - 1))
-        except (AttributeError, IndexError):  # it is never called when off: it stands behind `if len(p)`
-            return node
-        return ast.parse(repr(given), mode="eval").body
+    def note(self, loop, arguments):
+        self.loops[loop, tuple(map(typeof, arguments))] = None
 
-
-def built_without(effect: str, whole):
-    """A module of loops without the terms of an effect, as one of its own."""
-    tree = ast.fix_missing_locations(Strip(effect).visit(ast.parse(Path(whole.__file__).read_text(encoding="utf-8"))))
-    file = Path(tempfile.mkdtemp()) / f"{whole.__name__.split('.')[-1]}_without_{effect}.py"
-    file.write_text(ast.unparse(tree), encoding="utf-8")
-    spec = importlib.util.spec_from_file_location(file.stem, file)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[file.stem] = module
-    spec.loader.exec_module(module)
-    return module
+    def hear(self, loop, arguments):
+        takes = any(home_of(typeof(given)) for given in arguments)
+        if not self.runs and not takes:
+            return super().hear(loop, arguments)
+        self.note(loop, arguments)
+        if self.runs:
+            return loop.here(*arguments)
+        many = results(loop)
+        return None if not many else 0.0 if many == 1 else (0.0,) * many
 
 
-def arguments(simulation) -> dict[str, tuple]:
-    """Name of each loop -> its arguments in one sub-step."""
-    effect_costs.step(simulation, 1e-7)
-    stepper = simulation.stepper
-    zeros = np.zeros(len(stepper.state.x))
-    stepper.force(zeros, np.zeros((len(zeros), 3)), zeros)
-    return {name: given for name, (_, given) in stepper.loops(1e-7).items() if name in LOOPS}
+class Term(NamedTuple):
+    """A loop that takes parameters of an effect as its arguments `at`, in a scene."""
+
+    loop: object
+    at: frozenset[int]
+    scene: str
 
 
-def instructions(loop, given: tuple) -> list[str]:
+def home_of(taken) -> str | None:
+    """Module of the effect whose parameters are of a type."""
+    module = getattr(getattr(taken, "instance_class", None), "__module__", "")
+    return module if module.startswith("sdph.effects.") else None
+
+
+class Scenes:
+    """Types of what loops take in scenes, as these are and without an effect."""
+
+    def __init__(self, names=(*HEARD, *RUN)):
+        self.cases = {name: cases.load(scenes.find(name)[1], COARSE.get(name, ())) for name in names}
+        self.less: dict[tuple[str, str], list] = {}
+        self.heard = {name: loops_in(case, Ear(name in RUN)) for name, case in self.cases.items()}
+        homes = {home_of(kind) for loops in self.heard.values() for _, taken in loops for kind in taken} - {None}
+        self.homes = {home.rpartition(".")[2]: home for home in sorted(homes)} | HOMES
+
+    def terms(self, effect: str) -> list[Term]:
+        """Loops that take parameters of an effect, each once."""
+        found: dict = {}
+        home = self.homes[effect]
+        for scene, loops in self.heard.items():
+            for loop, taken in loops:
+                at = frozenset(n for n, kind in enumerate(taken) if home_of(kind) == home)
+                if at:
+                    found.setdefault(loop, Term(loop, at, scene))
+        return list(found.values())
+
+    def off(self, term: Term, effect: str) -> tuple | None:
+        """Types of what the loop of a term takes where the effect is off; None where nobody calls it then."""
+        return next(self._off(term, effect), None)
+
+    def _off(self, term: Term, effect: str):
+        """All such types, of the term's scene without the effect first."""
+        for loops in (self._without(term.scene, effect), *self.heard.values()):
+            for loop, taken in loops:
+                if loop is term.loop and all(taken[n] == typeof(OFF) for n in term.at):
+                    yield taken
+
+    def _without(self, scene: str, effect: str) -> list:
+        """Loops of a scene without an effect; none where it cannot do without."""
+        if effect in effects.REGISTRY and (scene, effect) not in self.less:
+            try:
+                case = effect_costs.without(self.cases[scene], effect)
+                self.less[scene, effect] = loops_in(case, Ear(scene in RUN))
+            except CaseError:
+                self.less[scene, effect] = []
+        return self.less.get((scene, effect), [])
+
+
+def instructions(loop, taken: tuple) -> list[str]:
     """Machine code of a loop for the types of its arguments, with symbols by the order in which they come up."""
-    serial = njit(error_model="numpy", fastmath=FAST)(loop.py_func)
-    serial(*(a.copy() if hasattr(a, "copy") else a for a in given))
-    (text,) = serial.inspect_asm().values()
+    loop.compile(taken)
+    (text,) = loop.inspect_asm().values()
     seen: dict[str, str] = {}
     lines = (line.split("#")[0].strip() for line in text.splitlines())
     code = [line for line in lines if (line and not line.startswith((".", "_", "\t."))) or line.startswith(".L")]
@@ -90,35 +141,55 @@ def _symbol(word: str, seen: dict) -> str:
     return seen.setdefault(word, f"s{len(seen)}") if made else word
 
 
-def compared(effect: str) -> list[dict]:
-    """A row for each loop that has terms of the effect."""
-    whole = cases.load(scenes.HERE / "bubbling_bed" / "case.toml", effect_costs.BED)
-    given = arguments(effect_costs.prepared(effect_costs.without(whole, effect)))
-    other, rows = {module: built_without(effect, module) for module in set(LOOPS.values())}, []
-    for name in given:
-        loop = getattr(LOOPS[name], name)
-        if inspect.getsource(loop.py_func).count(f"{effect}."):
-            own, bare = instructions(loop, given[name]), instructions(getattr(other[LOOPS[name]], name), given[name])
-            rows.append(
-                {
-                    "effect off": effect,
-                    "loop": name,
-                    "instructions": len(own),
-                    "built without": len(bare),
-                    "identical": own == bare,
-                }
-            )
-    return rows
+def compared(term: Term, effect: str, home: str, taken: tuple) -> dict:
+    """The row of a loop that takes `taken` where the effect is off."""
+    names = list(inspect.signature(term.loop.py_func).parameters)
+    off = frozenset(names[n] for n in term.at)
+    own, bare = (Rebuilt(home, strip) for strip in (False, True))
+    whole, less = (instructions(built.of(term.loop, off), taken) for built in (own, bare))
+    return {
+        "effect off": effect,
+        "loop": name_of(term.loop),
+        "places": bare.places,
+        "instructions": len(whole),
+        "built without": len(less),
+        "": f"not taken out: {', '.join(bare.left)}" if bare.left else verdict(whole, less),
+    }
 
 
-def with_terms() -> list[str]:
-    """Effects whose functions the loops call; those of granular temperature give their argument when off: no constant
-    stands for them."""
-    source = "".join(inspect.getsource(getattr(module, name).py_func) for name, module in LOOPS.items())
-    return [name for name in effects.REGISTRY if f"{name}." in source and name != "granular_temperature"]
+def verdict(whole: list[str], less: list[str]) -> str:
+    """Tell two texts of machine code apart: by the order of their instructions, or by how many only one of them has."""
+    if whole == less:
+        return SAME
+    own, bare = (Counter(line.split()[0] for line in code) for code in (whole, less))
+    apart = (own - bare).total(), (bare - own).total()
+    return MOVED if apart == (0, 0) else "not identical: {} only here, {} only there".format(*apart)
+
+
+def looked_into(effect: str, heard: Scenes) -> tuple[list[dict], str]:
+    """Rows of the loops that have terms of an effect and are called without it, and what else is to be said."""
+    rows, uncalled, terms = [], [], heard.terms(effect)
+    for term in terms:
+        if taken := heard.off(term, effect):
+            rows.append(compared(term, effect, heard.homes[effect], taken))
+        else:
+            uncalled.append(name_of(term.loop))
+    if terms:
+        return rows, f"not called without it: {', '.join(uncalled)}" if uncalled else ""
+    on = any(effect in case.effects for case in heard.cases.values())
+    return rows, "no loop takes its parameters" if on else "none of the scenes has it"
+
+
+def main(names) -> int:
+    heard, rows, beside = Scenes(), [], []
+    for effect in names or heard.homes:
+        found, said = looked_into(effect, heard)
+        print("\n".join(str(list(row.values())) for row in found), file=sys.stderr, flush=True)
+        rows += found
+        beside += [{"effect": effect, "": said}] if said else []
+    print(f"{table(rows)}\n\n{table(beside)}")
+    return 0 if all(row[""] in (SAME, MOVED) for row in rows) else 1
 
 
 if __name__ == "__main__":
-    found = [row for effect in sys.argv[1:] or with_terms() for row in compared(effect)]
-    print(table(found))
-    sys.exit(0 if all(row["identical"] for row in found) else 1)
+    sys.exit(main(sys.argv[1:]))
