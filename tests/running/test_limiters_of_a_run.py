@@ -22,6 +22,7 @@ PARTS = [f"Repairs of the numerics: {part}" for part in ("grains", "exchange of 
 # `prepared` has a gas that holds nothing; a model of turbulence tells of one more (test_turbulence.py)
 OF_GAS = {*EMBEDDED, *OPENFOAM, "gas_turbulence_bounded_rel"} - set(BESIDE)
 LIQUIDS = ("Repairs of the numerics: liquids",)
+MOVING = ("Repairs of the numerics: moving particles",)
 # scenes that have all limiters between them, with what no scene has
 EVERY = {
     "bubbling_bed": ("walls.specularity=0.1",),
@@ -76,12 +77,18 @@ def test_the_page_names_all_columns_of_liquids(tmp_path):
         "at_most_viscosity",
         "no_shear_rate_share",
     }  # as shear_thinning tells
-    for name in ("dam_break", "square_patch", "bubble_rise"):
-        spacing = 8 if name == "dam_break" else 50
+    spacings = {"dam_break": 8, "square_patch": 50, "bubble_rise": 50, "drop_on_plate": 0.2}
+    for name, spacing in spacings.items():
         case = cases.load(scenes.HERE / name / "case.toml", (f"resolution.spacing_mm={spacing}",))
         told |= set(Alone(case, tmp_path / "ledger.csv").limiters.now)
     assert counted("H", LIQUIDS) == told
     assert counted("L", LIQUIDS) < set(AMOUNTS) | {f"impulse_of_shifting_{a}_kg_m_s" for a in "xyz"}
+
+
+def test_the_page_names_all_columns_of_moving_particles(tmp_path):
+    keys = ("resolution.spacing_mm=15", 'method.name="mps"')
+    case = cases.load(scenes.HERE / "dam_break" / "case.toml", keys)
+    assert counted("H", MOVING) == Alone(case, tmp_path / "ledger.csv").limiters.now.keys()
 
 
 def test_the_page_names_columns_of_the_ledger():

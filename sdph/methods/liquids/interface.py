@@ -122,14 +122,15 @@ def tighten(stepper) -> None:
     refresh = stepper.domain.refresh
     refresh(normal)
     if len(own) > 2 and stepper.world.any(len(stepper.walls) > 0):
-        line = wetting.Line(np.zeros_like(normal), np.zeros(len(volume)), np.zeros(len(volume)))
+        height, share = np.zeros(len(volume)), np.zeros(len(volume))
+        line = wetting.Line(np.zeros_like(normal), height, share, np.zeros(len(volume), np.int8))
         wetting.face(*around, stepper.active, own, volume, line.facing, line.height)
         refresh(line.facing, line.height)
-        wetting.lean(*around, stepper.walls, own, normal, line.facing, line.share)
+        wetting.lean(*around, stepper.walls, own, normal, line.facing, line.share, line.meeting)
         refresh(line.share)
         orient(*around, stepper.active, own, volume, line, normal)
         refresh(normal)
     bend(*around, stepper.active, volume, line, normal, stepper.curvature)
     refresh(stepper.curvature)
     pull(*around, stepper.active, own, volume, normal, stepper.curvature, stepper.acceleration)
-    stepper.tightening = stepper.acceleration - before
+    stepper.line, stepper.tightening = line, stepper.acceleration - before

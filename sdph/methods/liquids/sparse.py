@@ -1,4 +1,5 @@
-"""Particles whose neighbours are too few for what the loops make of them; limiters 30 and 32 of docs/limiters.md."""
+"""Particles whose neighbours are too few for what the loops make of them, and what is held where an interface meets a
+wall; limiters 30, 32 and 51 of docs/limiters.md."""
 
 from __future__ import annotations
 
@@ -15,7 +16,10 @@ from sdph.engine.gradients import NO_MATRIX, NO_SUMS, added, in_plane
 from sdph.engine.rows import entry, length
 from sdph.laws.compiled import fast_parallel, serial
 from sdph.laws.matrices import SINGULAR, determinant
-from sdph.methods.liquids import phases
+from sdph.methods.liquids import phases, wetting
+from sdph.methods.liquids.interface import on_interface
+
+ROUND_OFF = 1e-9  # of the factor of `wetting.beyond`, which on a lattice is FURTHEST itself
 
 
 @fast_parallel
@@ -84,7 +88,41 @@ def _tension(stepper) -> dict[str, float]:
     faces = np.zeros(len(own), bool)
     facing(s, stepper.rows, stepper.neighbours.box, own, 2.0 * stepper.kernel.h, stepper.volume, faces)
     bent = np.where(has, np.maximum(stepper.volume, 0.0), 0.0)
-    return {
+    return _wetting(stepper) | {
         "no_curvature_share": _lonely(stepper, own[has[own]], bent),
         "no_normal_share": stepper.world.mean(~has[own[faces]]),
+    }
+
+
+@serial
+def led_on(s, rows, box, active, support, volume, normal, line):
+    """Numbers of the pairs of fluid and wall within the kernel's `support` [m] whose difference of
+    normals is led on behind the wall, and of those where the factor is held (`wetting.beyond`)."""
+    pairs = bounded = 0.0
+    for n in range(len(active)):
+        i = active[n]
+        for k in range(rows.number[i]):
+            j = entry(rows, i, k)
+            dx, dy, dz = apart(s, box, i, j)
+            near = volume[j] < 0.0 and dx * dx + dy * dy + dz * dz < support * support
+            if near and on_interface(normal, i) and on_interface(normal, j):
+                change = wetting.beyond(line, i, dx, dy, dz) - wetting.behind(line, i, dx, dy, dz)
+                pairs += 1.0
+                bounded += 1.0 if abs(change) > ROUND_OFF else 0.0
+    return pairs, bounded
+
+
+def _wetting(stepper) -> dict[str, float]:
+    """Shares of the particles that see a wall, whose distance from it is held; of the pairs across a wall's surface,
+    whose difference of normals is; of the wall particles in sight of an interface that do not meet it."""
+    line, own, around = stepper.line, stepper.active, (stepper.state, stepper.rows, stepper.neighbours.box)
+    if not line:
+        return {}
+    near, meeting = line.facing[own].any(axis=1), line.meeting[stepper.walls]
+    found = led_on(*around, own, 2.0 * stepper.kernel.h, stepper.volume, stepper.normal, line)
+    pairs, bounded = stepper.world.sum(np.array(found))
+    return {
+        "wetting_height_held_share": stepper.world.mean(line.height[own[near]] == 0.0),
+        "wetting_factor_held_share": float(bounded / pairs) if pairs else 0.0,
+        "wetting_unmet_share": stepper.world.mean(meeting[meeting > 0] == wetting.UNMET),
     }

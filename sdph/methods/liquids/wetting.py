@@ -31,14 +31,18 @@ ROUNDS = 30  # of the search for a plane, each halves what is left of 8 h: our c
 FURTHEST = 4.0
 LEAST = 0.5  # of sin a: an interface that runs more along the wall than that does not meet it. Our choice
 
+UNMET, MET = 1, 2
+
 
 class Line(NamedTuple):
     """By particle: unit normal of the wall in front (N, 3), into the fluid; distance from its surface (N,) [m]; of wall
-    particles share of liquid (N,). `()` where walls take no part."""
+    particles share of liquid (N,), and MET where the interface meets them, UNMET where it is in sight and does not
+    (N,). `()` where walls take no part."""
 
     facing: np.ndarray
     height: np.ndarray
     share: np.ndarray
+    meeting: np.ndarray
 
 
 @fast_parallel
@@ -65,9 +69,9 @@ def face(kernel, s, rows, box, active, wetting_p, volume, facing, height):
 
 
 @fast_parallel
-def lean(kernel, s, rows, box, walls, wetting_p, normal, facing, share):
+def lean(kernel, s, rows, box, walls, wetting_p, normal, facing, share, meeting):
     """normal (N, 3) of wall particles where the interface meets them, out of the liquid, else 0; share (N,) of liquid
-    that they stand for."""
+    that they stand for; meeting (N,) as in Line."""
     for n in prange(len(walls)):
         j = walls[n]
         wx = wy = wz = ox = oy = oz = total = liquid = 0.0
@@ -91,6 +95,7 @@ def lean(kernel, s, rows, box, walls, wetting_p, normal, facing, share):
         up = wetting_p.cosine if meets else 0.0
         ox, oy, oz = part * ox + up * wx, part * oy + up * wy, part * oz + up * wz
         normal[j, 0], normal[j, 1], normal[j, 2] = ox, oy, oz
+        meeting[j] = MET if meets else UNMET if size > 0.0 else 0
         share[j] = liquid / total if total > 0.0 else 0.0
         if meets:
             share[j] = filled(parting(kernel, s, rows, box, j, ox, oy, oz, liquid, wetting_p.spacing))
@@ -125,8 +130,14 @@ def opposite(line, kind, signed, j):
 
 
 @inlined
-def beyond(line, i, dx, dy, dz):
+def behind(line, i, dx, dy, dz):
     """Length of the way from particle i to one of a wall, r_ij [m], over that of its part in front of the wall's
-    surface; FURTHEST at most."""
+    surface."""
     deep = line.facing[i, 0] * dx + line.facing[i, 1] * dy + line.facing[i, 2] * dz
-    return min(max(deep / (line.height[i] + TINY), 1.0), FURTHEST)
+    return deep / (line.height[i] + TINY)
+
+
+@inlined
+def beyond(line, i, dx, dy, dz):
+    """The same within 1 and FURTHEST."""
+    return min(max(behind(line, i, dx, dy, dz), 1.0), FURTHEST)

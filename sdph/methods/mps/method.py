@@ -64,6 +64,7 @@ class MpsStepper:
         self.clipped = 0.0  # pressure below 0 that was left out, of all steps: sum of Pa
         self.load = np.zeros(3)  # of the pressure on walls [N], in the last step
         self.freed = np.zeros(0, bool)  # where the surface was drawn apart in the last step
+        self.at_walls = 0.0, 0.0  # pairs of liquid and wall in the last step, and those whose wall would pull
         self.moved = 0.0  # longest way [l0] by which particles were kept apart in the last step
         self._rebuild()
         if self.walls and not self.world.any((self.domain.mine_of(self.surface) == 1).any()):
@@ -192,7 +193,7 @@ class MpsStepper:
             equations.press(*self.within, self.pressure, pressed)
             return pressed
         borne = self._work("borne", (count, 3))
-        pools.press(*self.within, self.pressure, beside, scale, pressed, borne)
+        self.at_walls = pools.press(*self.within, self.pressure, beside, scale, pressed, borne)
         own = self.domain.own(s)
         self.load = alone.summed(self.world, alone.add_load, 3, len(own.x), own, self.domain.mine_of(borne))
         return pressed

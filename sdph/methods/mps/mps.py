@@ -14,7 +14,7 @@ from sdph.engine.kept import GROWING
 from sdph.engine.state import LIQUID
 from sdph.engine.stepped import Stepped
 from sdph.engine.table import Table
-from sdph.methods.mps import aboard, alone, history, pieces, sheet
+from sdph.methods.mps import aboard, history, limiters, pieces, sheet
 from sdph.methods.mps.instants import Instants
 from sdph.methods.mps.method import MpsStepper
 from sdph.methods.mps.pieces import RESOLVED
@@ -76,16 +76,7 @@ class Mps(Stepped):
             return history.row(self)
 
     def held(self) -> dict[str, float]:
-        """Share of the particles whose pressure would be below 0, where none is, now; of pools those at the surface
-        that are drawn apart and not held, and the longest way by which particles were kept apart [l0]."""
-        stepper = self.stepper
-        found = alone.shares(stepper.domain.own(self.state), stepper.freed)  # copies are never freed
-        many, bare, freed = map(float, stepper.world.sum(np.array(found)))
-        found = {"pressure_at_least_share": bare / many if stepper.own.holds(self.case) and many else 0.0}
-        if stepper.pool:
-            found["surface_freed_share"] = freed / (many or 1.0)
-            found["kept_apart_rel"] = stepper.moved
-        return found
+        return limiters.held(self.stepper)
 
     def points(self):
         with ashore.ashore(self.stepper):

@@ -77,13 +77,15 @@ def lean(cloud, walls, s, rows, box, scale, right):
 @parallel
 def press(cloud, walls, s, rows, box, pressure, beside, scale, acceleration, borne):
     """acceleration (N, 3) [m/s2] by the pressure, and borne (N, 3): what of it walls would give by pairs, which is
-    their load; scale: rho/dt.
+    their load; scale: rho/dt. Returns the numbers of pairs of liquid and wall, and of those whose wall may not pull and
+    would.
 
     The gradient is the one that fits best to the differences along pairs, and to the rise across walls. By pairs the
     pressure of a wall changes along it as that gradient says. Under tension pairs would draw together: it is taken from
     differences at the surface too.
     """
     share, light = cloud.dimensions / cloud.number, -1.0 / cloud.density
+    walled = held = 0.0
     for i in prange(len(s.x)):
         p_i = pressure[i]
         ax = ay = az = bx = by = bz = gx = gy = gz = xx = yy = zz = xy = yz = zx = 0.0
@@ -96,7 +98,9 @@ def press(cloud, walls, s, rows, box, pressure, beside, scale, acceleration, bor
             per, p_j, nx, ny, nz = share * w / (r * r), pressure[j], dx, dy, dz
             if solid(walls, s, j):
                 nx, ny, nz = across(walls, s, j, dx, dy, dz)
-                p_j = least(walls, p_i + rise(s, scale, i, nx, ny, nz))
+                p_free = p_i + rise(s, scale, i, nx, ny, nz)
+                p_j = least(walls, p_free)
+                walled, held = walled + 1.0, held + (1.0 if p_j > p_free else 0.0)
                 both = per * (p_i + p_j)
                 bx, by, bz = bx + both * dx, by + both * dy, bz + both * dz
                 tx, ty, tz = dx - nx, dy - ny, dz - nz
@@ -117,6 +121,7 @@ def press(cloud, walls, s, rows, box, pressure, beside, scale, acceleration, bor
             az += tzx * gx + tyz * gy + tzz * gz
         acceleration[i, 0], acceleration[i, 1], acceleration[i, 2] = light * ax, light * ay, light * az
         borne[i, 0], borne[i, 1], borne[i, 2] = light * bx, light * by, light * bz
+    return walled, held
 
 
 @parallel

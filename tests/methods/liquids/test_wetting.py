@@ -8,7 +8,8 @@ import pytest
 from sdph import scenes
 from sdph.case import read as cases
 from sdph.engine.state import GAS, LIQUID, WALL
-from sdph.methods.liquids import interface
+from sdph.methods.liquids import interface, wetting
+from sdph.methods.liquids.limiters import held
 from sdph.methods.liquids.method import LiquidStepper
 from sdph.schema import CaseError
 
@@ -73,12 +74,49 @@ def test_walls_have_the_normal_of_the_angle_where_the_interface_is(degrees):
     assert not own.normal[plate & (np.abs(s.x - 2e-3) < 0.4e-3)].any()
 
 
+def test_what_is_held_where_the_interface_meets_the_wall_is_told():
+    """Pairs led on further than FURTHEST, by hand, and the lowest row once it is set into the plate."""
+    own = stepper(90.0)
+    cut(own, 90.0, 2e-3)
+    s, active = own.state, own.active
+    first = held(own)
+    assert (first["wetting_height_held_share"], first["wetting_unmet_share"]) == (0.0, 0.0)
+    has = own.normal.any(axis=1)
+    far = [(s.y[i] - s.y[j]) / s.y[i] for i in active[has[active]] for j in own.walls[has[own.walls]]
+           if math.hypot(s.x[i] - s.x[j], s.y[i] - s.y[j]) < 2.0 * own.kernel.h]  # fmt: skip
+    assert first["wetting_factor_held_share"] == pytest.approx(np.mean(np.array(far) > 4.0 + 1e-9), abs=1e-12)
+    assert 0.05 < first["wetting_factor_held_share"] < 0.4
+    near = own.line.facing[active].any(axis=1)
+    lowest = active[s.y[active] < SPACING]
+    s.y[lowest] -= 0.2 * SPACING
+    interface.tighten(own)
+    assert held(own)["wetting_height_held_share"] == 0.0
+    s.y[lowest] -= 0.5 * SPACING
+    interface.tighten(own)
+    assert held(own)["wetting_height_held_share"] == pytest.approx(len(lowest) / near.sum(), rel=0.2)
+
+
+def test_a_film_along_a_wall_does_not_meet_it():
+    own = stepper(90.0)
+    s = own.state
+    fluid = s.kind != WALL
+    s.kind[fluid] = np.where(s.y[fluid] < 2.0 * SPACING, LIQUID, GAS)
+    interface.tighten(own)
+    plate = own.walls[(s.y[own.walls] < 0.0) & (np.abs(s.x[own.walls] - 2e-3) < 1e-3)]
+    seen = own.line.meeting[plate] > 0
+    assert seen.sum() > 10 and (own.line.meeting[plate][seen] == wetting.UNMET).all() and not own.normal[plate].any()
+    sides = (own.line.meeting[own.walls] == wetting.MET).sum()  # the film ends at the sides, which it does meet
+    many = (own.line.meeting[own.walls] > 0).sum()
+    assert sides > 0 and held(own)["wetting_unmet_share"] == 1.0 - sides / many
+
+
 def test_without_an_angle_walls_have_no_normal():
     table = cases.to_table(cases.load(FILE, ("resolution.spacing_mm=0.1",)))
     del table["surface_tension"]["contact_angle_deg"]
     own = LiquidStepper(cases.from_table(table))
     cut(own, 90.0, 2e-3)
     assert len(own.p["surface_tension"]) == 2
+    assert not [key for key in held(own) if key.startswith("wetting")]
     assert not own.normal[own.state.kind == WALL].any()
 
 
