@@ -23,7 +23,7 @@ def rows(text: str) -> list[str]:
 
 def repairs(page: str) -> list[str]:
     """What each repair is counted as."""
-    return rows(page.partition("## Bounds that are part")[0])
+    return rows(page.partition("## Why they act")[0])
 
 
 def in_a_sum(cell: str) -> bool:
@@ -49,3 +49,15 @@ def test_the_page_tells_how_many_there_are(page):
         for part in ("Bounds that are part", "Guards against")
     )
     assert f" {bounds} more bounds are part of a law, a boundary or an interpolation, and {guards} guard" in text
+
+
+def test_every_column_of_the_history_has_a_reason(page):
+    """READMEs of scenes take it from there (validation/recorded.py)."""
+    why = re.findall(r"^\| `(\w+)` \|", page.partition("## Why they act")[2].partition("\n## ")[0], re.MULTILINE)
+    told = {
+        name
+        for cell in repairs(page)
+        for named in re.finditer(r"((?:`\w+`(?:, )?)+)((?: [LSH])+)", cell)
+        for name in re.findall(r"\w+", named[1] * ("H" in named[2]))
+    }
+    assert len(told) > 40 and len(why) == len(set(why)) and set(why) == told

@@ -8,7 +8,8 @@ is followed by where it is from, a record and the end of a check's name, and kee
 `0.102<!-- bubbling_bed: centroid at 0.20 s [m] -->`. What is not the check's value is named behind a semicolon,
 `reference`, `bar`, `difference`, `ratio` or `off` (in %), and a factor: `; reference x 1000`. In the place of a check
 may stand a count, `held` of those that were `judged` or `reported`; in the place of a number the check's verdict,
-`**missed**` or `held`.
+`**missed**` or `held`. Between `<!-- limiters: SCENE -->` and the end stands which limiters acted in the runs of that
+record, how much, and why, which is docs/limiters.md's.
 """
 
 from __future__ import annotations
@@ -27,6 +28,10 @@ END = "<!-- end of what is recorded -->"
 TABLE = re.compile(
     rf"(?P<mark><!-- recorded: (?P<scene>\w+)(?P<misses>, misses)? -->\n)(?:(?!<!-- recorded).)*?{END}", re.DOTALL
 )
+LIMITERS = re.compile(
+    rf"(?P<mark><!-- limiters: (?P<scene>\w+) -->\n)(?:(?!<!-- (?:recorded|limiters)).)*?{END}", re.DOTALL
+)
+WHY = re.compile(r"^\| `(\w+)` \| (.+) \|$", re.MULTILINE)
 MISSED, HELD = "**missed**", "held"
 NUMBER = re.compile(
     rf"(?P<told>[-+]?\d+(?:\.\d+)?(?:e-?\d+)?|{re.escape(MISSED)}|{HELD})"
@@ -66,7 +71,38 @@ def pages() -> dict[Path, str]:
 def filled(text: str) -> str:
     """The text with tables and numbers as they are recorded."""
     text = TABLE.sub(lambda match: match["mark"] + table(own(match["scene"]), bool(match["misses"])) + END, text)
+    text = LIMITERS.sub(lambda match: match["mark"] + limiters(own(match["scene"])) + END, text)
     return NUMBER.sub(_number, text)
+
+
+@cache
+def reasons() -> dict[str, str]:
+    """Why a limiter acts, by its column, of docs/limiters.md."""
+    page = (ROOT / "docs" / "limiters.md").read_text(encoding="utf-8")
+    return dict(WHY.findall(page.partition("\n## Why they act\n")[2].partition("\n## ")[0]))
+
+
+def limiters(made: dict) -> str:
+    """What limiters held in the runs of a record: a table of a column for each run in which some acted."""
+    runs, page = made.get("limiters"), "[limiters](../../docs/limiters.md)"
+    if not runs:
+        why = "the record is older than that" if runs is None else "it makes runs of its own"
+        return f"Which {page} acted is not recorded: {why} ({made['date']}).\n" if made["checks"] else table(made, True)
+    acting = {name: held for name, held in runs.items() if held}
+    idle = [name for name in runs if not runs[name]]
+    told = f"None of the {page} acted in {'; '.join(idle)} ({made['date']}).\n" if idle else ""
+    return told + (_acting(acting, f"Which {page} acted ({made['date']}), the largest of a run") if acting else "")
+
+
+def _acting(runs: dict[str, dict], told: str) -> str:
+    """Table of the limiters of runs, in which each had some."""
+    columns = list(dict.fromkeys(column for held in runs.values() for column in held))
+    cells = {
+        column: [_short(held[column], 2) if column in held else "" for held in runs.values()] for column in columns
+    }
+    head = f"| | {' | '.join(runs)} | why |\n|--|{'--|' * len(runs)}--|"
+    rows = [f"| `{column}` | {' | '.join(cells[column])} | {reasons()[column]} |" for column in columns]
+    return "\n".join([f"{told}:", "", head, *rows, ""])
 
 
 def table(made: dict, misses: bool) -> str:

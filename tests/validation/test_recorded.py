@@ -36,8 +36,9 @@ def test_pages_tell_what_is_recorded(recorded):
 
 def test_no_mark_is_overlooked(recorded):
     """One that stands apart from its number, or that has no end, would leave what is there as it is."""
+    marks = recorded.TABLE, recorded.NUMBER, recorded.LIMITERS
     for file, text in recorded.pages().items():
-        seen = {match["mark"].strip() for own in (recorded.TABLE, recorded.NUMBER) for match in own.finditer(text)}
+        seen = {match["mark"].strip() for own in marks for match in own.finditer(text)}
         assert set(re.findall(r"<!-- \w+: .*?-->", text)) - seen == set(), file
 
 
@@ -46,6 +47,33 @@ def test_every_readme_of_a_validation_has_a_table(scene):
     """`<!-- recorded: SCENE -->` or `<!-- recorded: SCENE, misses -->`, so that no miss to come can hide."""
     page = FOLDER / scene / "README.md"
     assert not page.is_file() or f"<!-- recorded: {scene}" in page.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("scene", RECORDS)
+def test_every_readme_of_a_record_has_its_limiters(scene):
+    """What `test_pages_tell_what_is_recorded` then holds to be that of the record."""
+    assert f"<!-- limiters: {scene} -->\n" in (FOLDER / scene / "README.md").read_text(encoding="utf-8")
+
+
+def test_limiters_are_told_by_run_with_their_reason(of_one, monkeypatch):
+    runs = {"one": {"a_share": 0.123, "b_Pa": 25536.0}, "calm, cold": {}, "other": {"a_share": 1.0}}
+    monkeypatch.setattr(of_one, "own", lambda scene: MADE | {"checks": CHECKS, "limiters": runs})
+    monkeypatch.setattr(of_one, "reasons", lambda: {"a_share": "it is so", "b_Pa": "it pulls"})
+    made = of_one.filled(f"<!-- limiters: one -->\nold\n{of_one.END}\nafter\n")
+    assert made.endswith(f"\n{of_one.END}\nafter\n") and "\nold\n" not in made and of_one.filled(made) == made
+    assert "acted in calm, cold (2026-11-28)." in made
+    assert "| | one | other | why |\n|--|--|--|--|\n| `a_share` | 0.12 | 1 | it is so |" in made
+    assert "\n| `b_Pa` | 25536 |  | it pulls |\n<!--" in made
+
+
+@pytest.mark.parametrize(
+    ("limiters", "told"), [({}, "is not recorded: the record is older"), ({"limiters": {}}, "it makes runs of its own"),
+                           ({"limiters": {"one": {}}}, "None of the [limiters]")],
+)  # fmt: skip
+def test_a_record_without_limiters_says_so(limiters, told, of_one, monkeypatch):
+    monkeypatch.setattr(of_one, "own", lambda scene: MADE | {"checks": CHECKS} | limiters)
+    made = of_one.filled(f"<!-- limiters: one -->\n{of_one.END}\n")
+    assert told in made and "(2026-11-28)" in made and "|" not in made
 
 
 @pytest.mark.parametrize("scene", RECORDS)
