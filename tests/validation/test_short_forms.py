@@ -116,6 +116,7 @@ MISSED = {
     "dam_break_gas": {f"front x/a at T = {at}": "a/10" for at in ("1.25", "1.5", "2")},
     "free_overfall": {"depth at the brink": "a sixth of the depth", "change of what is held": "2 s: not yet steady"},
     "capillary_wave": {"height over that at the start": "16 to the wave"},
+    "sloshing_sphere": {"peak of F_x": "11 % too low, as the scene itself (12 %): its waves are not small"},
     "sloshing_cassini": {"numerical_work_rel": "6.4 % of 2 % in particles of 90 mm"},
     "oscillating_plate": {"period over": "1.28 with four layers"},
     "taylor_bar": {"length": "six spacings across", "radius of the foot": "the same"},
@@ -131,6 +132,8 @@ MISSED = {
         "smallest circularity": "R/5",
     },
 }
+# the same -> how far off it may be none the less: what the source of sloshing_sphere's estimate says it is good for
+AT_MOST = {"sloshing_sphere": {"peak of F_x": 0.2}}
 
 
 def checks(folder, scene, overrides, references) -> list[dict]:
@@ -155,6 +158,9 @@ def test_short_form(tmp_path, scene):
     failed = [check for check in rows if not check["ok"]]
     assert [check for check in failed if not named(scene, check)] == []
     assert {name for check in failed for name in named(scene, check)} == set(MISSED.get(scene, ()))
+    for name, share in AT_MOST.get(scene, {}).items():
+        found = [abs(check["value"] / check["reference"] - 1.0) for check in rows if check["name"].startswith(name)]
+        assert found and max(found) < share, (name, found)
 
 
 def test_a_drop_in_hot_gas_has_the_closed_form_of_stefan_flow(tmp_path):
