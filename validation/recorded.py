@@ -77,13 +77,13 @@ def filled(text: str) -> str:
 
 @cache
 def reasons() -> dict[str, str]:
-    """Why a limiter acts, by its column, of docs/limiters.md."""
+    """Reasons why limiters act, by column, of docs/limiters.md."""
     page = (ROOT / "docs" / "limiters.md").read_text(encoding="utf-8")
     return dict(WHY.findall(page.partition("\n## Why they act\n")[2].partition("\n## ")[0]))
 
 
 def limiters(made: dict) -> str:
-    """What limiters held in the runs of a record: a table of a column for each run in which some acted."""
+    """Limiters that acted in the runs of a record: a table with a column for each run in which some did."""
     runs, page = made.get("limiters"), "[limiters](../../docs/limiters.md)"
     if not runs:
         why = "the record is older than that" if runs is None else "it makes runs of its own"
