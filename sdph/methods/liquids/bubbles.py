@@ -289,7 +289,7 @@ class Bubbles:
         return told
 
     def summary(self) -> dict[str, float]:
-        """Bubbles in the end; `bubble_impulse_rel`: impulse that closed voids push too much, over all."""
+        """Bubbles in the end; `bubble_impulse_rel` is the impulse that is off over all that closed voids push."""
         off = float(np.hypot(*self.unclosed))
         told = {f"bubble_{number}_diameter_m": 2.0 * part.radius for number, part in enumerate(self.parts, 1)}
         told |= {"bubbles_left": len(self.left), "bubbles_merged": self.merged, "bubbles_closed": self.closed}
