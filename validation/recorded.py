@@ -111,12 +111,20 @@ def table(made: dict, misses: bool) -> str:
         return f"Not recorded: `sdph validate {made['scene']} --record validation/record` does it.\n"
     checks = [check for check in made["checks"] if not check["ok"] or not (misses or "balances: " in check["name"])]
     missed, reported = (sum(map(of, made["checks"])) for of in (lambda check: not check["ok"], COUNTS["reported"]))
-    made_by = f"Recorded {made['date']} (commit {made['commit']}, gas {made['gas']})"
+    made_by = f"Recorded {made['date']} (commit {made['commit']}, gas {made['gas']}{_apart(made.get('parts', {}))})"
     left_out = "those" if misses else "balances"
     told = f"{reported} only reported; " if reported else ""
     about = f"{len(made['checks'])} checks, {missed} missed; {told}{left_out} that hold are not shown"
     rows = ["", HEAD, *(row(check, made["scene"]) for check in checks)] if checks else []
     return "\n".join([f"{made_by}: {about}.", *rows, ""])
+
+
+def _apart(parts: dict[str, dict]) -> str:
+    """Words for the parts that were recorded by themselves: those of one date and commit together."""
+    found = {}
+    for name, own in parts.items():
+        found.setdefault(f"{own['date']}, {own['commit']}", []).append(name)
+    return "".join(f"; {', '.join(names)} {when}" for when, names in found.items())
 
 
 def row(check: dict, scene: str) -> str:

@@ -147,6 +147,7 @@ def _overview(found: dict[str, dict]) -> str:
 def _told(own: dict) -> str:
     """When a record was made, and its checks."""
     made = f"Measured {own['date']}, sdph {own['version']}, commit {own['commit'] or 'unknown'}, gas: {own['gas']}."
+    made += "".join(f" {name}: {of['date']}, {of['commit'] or '?'}." for name, of in own.get("parts", {}).items())
     short = [check | {"name": check["name"].removeprefix(f"{own['scene']}, ")} for check in own["checks"]]
     return f"{made}\n\n{_table(short)}"
 

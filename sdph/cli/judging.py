@@ -53,12 +53,11 @@ def validate_scene(options) -> int:
 
     if options.record and options.set:
         raise CaseError(f"--record {options.record}: a record is of the scene as it is; leave --set out")
-    if options.record and "." in (options.scene or ""):
-        raise CaseError(
-            f"--record {options.record}: a record is of all of {options.scene.partition('.')[0]}; give that"
-        )
     if options.scene is None:
         return _apart(validate.validated(), lambda name: _words(name, options), options)
+    study, _, part = options.scene.partition(".")
+    if options.record and part and study in validate.STUDIES:
+        record.with_parts(options.record, study)  # before the part is run
     if _by_workers(options):
         raise CaseError("--workers and --scheduler part the scenes among them; leave them out for one scene")
     overrides = tuple(options.set) + ((f'coupling.gas="{options.gas}"',) if options.gas else ())
@@ -67,8 +66,10 @@ def validate_scene(options) -> int:
         checks = validate.validate(options.scene, overrides, reporter, folder, acted)
     if not options.set:
         checks += _vanished(options, checks)
-    if options.record:
-        record.write(options.record, options.scene, checks, options.gas, acted)
+    if options.record and part:
+        record.write_part(options.record, study, part, checks, options.gas, validate.parts(study))
+    elif options.record:
+        record.write(options.record, study, checks, options.gas, acted, validate.long(study))
     _tell(checks, options.json)
     return FINE if all(check["ok"] for check in checks) else CHECK_FAILED
 
@@ -138,4 +139,5 @@ def _tell(checks: list[dict], as_json: bool) -> None:
     from sdph.running import output
     from sdph.study import compare
 
-    print(output.strict_json({"checks": checks}) if as_json else compare.table(checks))
+    told = [{key: value for key, value in check.items() if key != "part"} for check in checks]
+    print(output.strict_json({"checks": told}) if as_json else compare.table(told))

@@ -75,10 +75,15 @@ def some(checks: list[dict], name: str) -> list[dict]:
 
 def vanished(scene: str, checks: list[dict], folder: Path | None) -> list[dict]:
     """Failed checks, their values nan, for the names in the record of a scene that `checks` has not; the record in
-    `folder`, or else the one that came along. None for a part of a study: a record is of all of it."""
-    kept = (folder and record.read(folder, scene)) or record.read(paths.data("validation") / "record", scene)
+    `folder`, or else the one that came along. Of a study only those of the parts that it runs: STUDY.PART that part,
+    STUDY all but those in LONG."""
+    study, _, name = scene.partition(".")
+    kept = record.kept(folder, study)
     left, gone = Counter(check["name"] for check in checks), []
     for check in kept["checks"] if kept else ():
+        part = check.get("part")
+        if part != name if name else part in long(study):
+            continue
         left[check["name"]] -= 1
         if left[check["name"]] < 0:
             gone.append(check | _numbers(check) | {"value": math.nan, "ok": False})
@@ -91,21 +96,31 @@ def _numbers(check: dict) -> dict:
 
 
 def _parts(study: str, name: str, overrides: tuple[str, ...], reporter, folder: Path) -> list[dict]:
-    """The checks of a part of a study, or without its name of all; their runs and figures go to `folder`."""
+    """The checks of a part of a study, or without its name of all, each with its `part`; their runs and figures go to
+    `folder`."""
     for text in overrides:
         if not text.startswith(STUDIES[study]):
             raise CaseError(f"--set {text}: {study} is run as it is; leave it out")
-    names = part(study).NAMES
-    known = (*names, *getattr(part(study), "LONG", ()))
+    names, known = part(study).NAMES, parts(study)
     if name and name not in known:
         raise CaseError(f"{study}.{name}: {study} has no such part; it has: {', '.join(known)}")
     folder.mkdir(parents=True, exist_ok=True)
     own = [part(study, name) for name in ([name] if name else names)]
     return [
-        check
+        check | {"part": _name(module)}
         for module in own
         for check in some(module.checks(folder, overrides, reporter), f"{_name(module)}: gives a check")
     ]
+
+
+def parts(study: str) -> tuple[str, ...]:
+    """Names of the parts of a study, in the order in which they run; those in LONG at the end."""
+    return (*part(study).NAMES, *long(study))
+
+
+def long(study: str) -> tuple[str, ...]:
+    """Names of the parts that run by name alone; none of what is no study."""
+    return getattr(part(study), "LONG", ()) if study in STUDIES else ()
 
 
 def _name(module) -> str:

@@ -38,6 +38,7 @@ def test_a_part_of_a_study_that_gives_no_check_has_missed(tmp_path, monkeypatch)
     monkeypatch.setattr(part, "checks", lambda *given: [])
     found = validate.validate("experiments.liquid_fluidisation", (), None, tmp_path)
     assert verdicts(found) == {"liquid_fluidisation: gives a check": False}
+    assert found[0]["part"] == "liquid_fluidisation"
 
 
 def test_a_check_that_the_record_has_and_the_run_lacks_has_missed(tmp_path):

@@ -97,6 +97,15 @@ def test_a_table_has_misses_and_no_balance_that_holds(of_one):
     assert of_one.filled(made) == made
 
 
+def test_the_head_of_a_table_names_parts_that_were_recorded_by_themselves(recorded):
+    later = {"date": "2026-12-01", "commit": "def"}
+    parts = {"lines": later, "drops": later, "films": later | {"commit": "fed"}}
+    head = recorded.table(MADE | {"parts": parts, "checks": CHECKS}, True).splitlines()[0]
+    assert head.startswith(
+        "Recorded 2026-11-28 (commit abc, gas embedded; lines, drops 2026-12-01, def; films 2026-12-01, fed): 4 checks"
+    )
+
+
 def test_large_numbers_of_a_table_stand_as_they_are(recorded):
     check = {"name": "p [Pa]", "value": 151_234.5678, "reference": 1.5e5, "tolerance": 7512.3, "ok": True}
     assert recorded.row(check, "one") == "| p [Pa] | 151235 | 150000 | 7512 |  |"
