@@ -130,11 +130,13 @@ def width(folder: Path, time: float, case) -> float:
 
 
 def _figure(file: Path, drawn) -> None:
+    """D/D_0 over time of each run, with both laws, and what the table accepts shaded."""
     with measured.figure(file, "t U/D_0 [-]", "D/D_0 [-]") as axes:
         for k, weber in enumerate(dict.fromkeys(weber for weber, *_ in drawn)):
             own = row(weber)
             laws = {"Pasandideh-Fard": own["beta_PasandidehFard"], "Roisman, table": own["beta_Roisman"],
                     "Roisman, root We": roisman(own["We"], own["Re"])}  # fmt: skip
+            axes.axhspan(*spans(own)["the table"], color=f"C{k}", alpha=0.15)
             for (law, value), style in zip(laws.items(), ("--", ":", "-.")):
                 axes.axhline(value, c=f"C{k}", ls=style, lw=1, label=f"{law}, We {weber:g}")
             for _, fine, curve in (one for one in drawn if one[0] == weber):

@@ -136,7 +136,7 @@ def _figure(file: Path, rows, onset, blown) -> None:
     ar = archimedes(onset.case)
     with measured.figure(file, "time [s]", "Nu of the tube, grains' part [-]") as axes:
         for name, own, colour in (("minimum fluidisation", onset, "C0"), ("0.45 m/s", blown, "C1")):
-            axes.plot(*_course(own), "-", c=colour, lw=1, label=f"SDPH, {name}")
+            axes.plot(*course(own), "-", c=colour, lw=1, label=f"SDPH, {name}")
             axes.axhline(number(own), c=colour, ls="--", lw=1)
         axes.axhline(known_at_onset(rows, onset.case), c="k", ls=":", label=f"Zhang et al. at the onset, Ar = {ar:.0f}")
         gathered = inside(blown)
@@ -145,7 +145,7 @@ def _figure(file: Path, rows, onset, blown) -> None:
         axes.set_ylim(0.0, None)
 
 
-def _course(run, step: float = 0.05) -> np.ndarray:
+def course(run, step: float = 0.05) -> np.ndarray:
     """Times [s] and Nu, means of `step` [s]."""
     time, heat = run.ledger["time_s"], np.cumsum(run.ledger["heat_of_walls_J"])
     ends = np.arange(step, run.case.run.end_time + 0.5 * step, step)

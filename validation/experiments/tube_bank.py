@@ -12,11 +12,13 @@ import math
 import shutil
 from pathlib import Path
 
+import numpy as np
+
 from coupling.openfoam.programs import installation
 from sdph.scenes import paths
 from sdph.study import compare
 
-from . import hot_tube
+from . import hot_tube, measured
 
 SPEED, END = 0.45, 2.0  # m/s, s: those of the single tube
 SQUARE, CELL, RADIUS, AROUND = 0.08, 0.01, 0.5 * hot_tube.TUBE, 4  # m, m, m; cells across a ring: those of the scene
@@ -35,6 +37,7 @@ def checks(folder: Path, overrides=(), reporter=None, end: float = END) -> list[
         return []
     own = run(folder / "tube-bank", overrides, reporter, end)
     reference = grewal(own.case, SPEED, hot_tube.inside(own))
+    _figure(folder / "tube_bank.png", own, reference)
     name = f"tube bank, staggered, {len(TUBES)} tubes at {SPEED} m/s, Grewal: Nu [-]"
     return [compare.check(name, hot_tube.number(own), reference, hot_tube.BAR, True)]
 
@@ -109,3 +112,24 @@ def _text(places, back: int, blocks, arcs, patches: dict[str, list[tuple[int, in
         sides = " ".join(f"({a} {b} {back + b} {back + a})" for a, b in faces)
         lines.append(f"{name} {{ type {kind}; faces ({sides}); }}")
     return "\n".join([*lines, ");", ""])
+
+
+def _figure(file: Path, own, reference: float) -> None:
+    """Nu of all tubes over time beside the law's band, and the bed at the end."""
+    from matplotlib.patches import Circle
+
+    _, grains, _ = own.fields(own.case.run.end_time)
+    places, half = np.asarray(grains.points)[:, :2], (1.0 - hot_tube.BAR, 1.0 + hot_tube.BAR)
+    with measured.figure(file, "time [s]", "Nu of the tubes, grains' part [-]") as axes:
+        axes.plot(*hot_tube.course(own), "-", c="C0", lw=1, label="SDPH, mean of the five tubes")
+        axes.axhline(hot_tube.number(own), c="C0", ls="--", lw=1, label="its mean over the last three fifths")
+        axes.axhline(reference, c="k", ls="--", label="Grewal, and 25 % either way")
+        axes.axhspan(*(share * reference for share in half), color="0.85")
+        axes.set_ylim(0.0, None)
+        bed = axes.inset_axes((1.03, 0.0, 0.4, 1.0))
+        bed.scatter(*places.T, c=np.asarray(grains["alpha_p"]), s=1, cmap="viridis")
+        for i, j in TUBES:
+            centre = 0.5 * (ACROSS[i] + ACROSS[i + 1]), 0.5 * (UP[j] + UP[j + 1])
+            bed.add_patch(Circle(centre, RADIUS, fc="w", ec="r"))
+        bed.set(xlim=(0.0, ACROSS[-1]), ylim=(0.0, UP[-1]), aspect="equal", xticks=(), yticks=())
+        bed.set_title(f"grains at {own.case.run.end_time:g} s", fontsize=8)
