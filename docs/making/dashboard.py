@@ -15,6 +15,7 @@ from sdph.study import compare, record, validate
 PARTS = {
     "experiments": {
         "packed_bed": "friction", "minimum_fluidisation": "U_mf", "liquid_fluidisation": "index n",
+        "liquid_beds": "liquid bed of", "bed_heat": "heat in a packed bed",
         "water_drops": "drop's", "heptane_drops": "heptane", "humid_drops": "water drop",
         "micro_drops": "micrometric drop", "bed_transfer": "transfer in a bed", "heated_bed": "packed steel",
         "hot_tube": "hot tube", "tube_bank": "tube bank", "bed_pressure": "bed of beads",

@@ -4,11 +4,13 @@ reporter)`, whose runs and figure go to `folder`, and `sdph validate experiments
 packed_bed                 Ergun 1952: friction of gas in a bed, from runs
 minimum_fluidisation       Geldart 1973: U_mf of 22 powders, laws alone
 liquid_fluidisation        Richardson & Zaki 1954: index n, laws alone
+liquid_beds                Richardson & Zaki 1954: voidage of beds in water, from runs
 water_drops                Ranz & Marshall 1952: rate of evaporation and wet bulb, from runs
 heptane_drops              Nomura et al. 1996: d^2 of heptane in hot nitrogen, from runs
 humid_drops                Fujita et al. 2010: d^2 and temperature of water in dry and humid air, from runs
 micro_drops                Taflin et al. 1988: d^2 of micrometric water drops, from runs
 bed_transfer               Wakao & Funazkri 1978: Sherwood numbers of packed beds, laws alone
+bed_heat                   Wakao & Funazkri 1978: Nusselt number of a packed bed, from runs
 heated_bed                 Beaulieu 2020: temperature in a packed bed of steel, from runs
 hot_tube                   Zhang et al. 2014, Grewal & Saxena 1980: heat from a tube to a bed, from runs with OpenFOAM
 tube_bank                  Grewal 1981: heat from a staggered bank of tubes, from a run with OpenFOAM
@@ -21,11 +23,13 @@ NAMES = (
     "packed_bed",
     "minimum_fluidisation",
     "liquid_fluidisation",
+    "liquid_beds",
     "water_drops",
     "heptane_drops",
     "humid_drops",
     "micro_drops",
     "bed_transfer",
+    "bed_heat",
     "heated_bed",
     "hot_tube",
     "tube_bank",
@@ -41,12 +45,14 @@ MEASURED = {
         "U_mf": ("Geldart 1973", "minimum fluidisation of powders", "laws"),
         "index n,": ("Richardson & Zaki 1954", "index of liquid fluidisation", "laws"),
         "index n of beds": ("Richardson & Zaki 1954", "index of liquid fluidisation, bed by bed", "laws"),
+        "liquid bed": ("Richardson & Zaki 1954", "voidage and index of beds in water", "runs"),
         "drop's rate": ("Ranz & Marshall 1952", "rate of evaporation of water drops", "runs"),
         "drop's temperature": ("Ranz & Marshall 1952", "wet bulb of water drops", "runs"),
         "heptane": ("Nomura et al. 1996", "d^2 of heptane drops in hot nitrogen", "runs"),
         "water drop": ("Fujita et al. 2010", "d^2 and temperature of water drops in humid air", "runs"),
         "micrometric drop": ("Taflin et al. 1988", "d^2 of micrometric water drops", "runs"),
         "transfer in a bed": ("Wakao & Funazkri 1978", "Sherwood numbers of packed beds", "laws"),
+        "heat in a packed bed": ("Wakao & Funazkri 1978", "Nusselt number of a packed bed", "runs"),
         "packed steel": ("Beaulieu 2020", "temperature in a heated bed of steel spheres", "runs"),
         "hot tube": ("Zhang et al. 2014, Grewal & Saxena 1980", "heat from a tube to a bed, laws of others", "runs"),
         "tube bank": ("Grewal 1981", "heat from a bank of tubes to a bed, law of others", "runs"),
