@@ -35,10 +35,11 @@ def test_the_law_alone_is_that_of_laws_of_settling(beds):
 
 @pytest.mark.parametrize(
     ("apart", "shift", "missed"),
-    [(0.0, 0.0, {"n [-], gidaspow"}), (0.02, 0.0, {"n [-], gidaspow", "halves"}), (0.0, 0.3, {"n [-], Richardson"})],
+    [(0.0, 0.0, ()), (0.05, 0.0, ("halves",)), (0.0, 0.14, ()), (0.0, 0.16, ("n [-], Richardson",))],
 )
 def test_beds_as_measured_pass_and_others_are_told(tmp_path, monkeypatch, beds, apart, shift, missed):
-    """Voidages by U = U_i eps^n with n of the table, at 0.5 to 0.65 of it; halves of the time apart; n 0.3 larger."""
+    """Voidages by U = U_i eps^n with n of the table, at 0.5 to 0.65 of it; halves of the time apart; n larger
+    than the table's."""
 
     def run(own, laid, *_):
         eps = laid ** (own["n"] / (own["n"] + shift))
@@ -68,7 +69,7 @@ def test_a_short_bed_in_water_grows_towards_its_own_law(tmp_path, monkeypatch, b
 
 def test_balance_of_a_bed_by_hand(hot):
     """Nu put into the closed form comes out again: root of D m^2 + U m = U s, what is left exp(-m L)."""
-    case = hot.cases.load(hot.scenes.find("fluidised_column")[1], hot.given(10.0, 0.001))
+    case = hot.at_rest(10.0, 0.001)
     gas, U = case.gas, case.boundaries["distributor"].velocity[1]
     carried = gas.density * gas.heat_capacity * U
     s = 6.0 * 0.6 * 9.0 * gas.conductivity / (hot.GRAIN**2 * carried)

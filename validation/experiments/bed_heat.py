@@ -1,7 +1,7 @@
 """Nusselt number of a packed bed that gas is heated in, from runs of the column of the scene fluidised_column, against
 the law of Wakao & Funazkri 1978 for gases and against the law that the runs use.
 
-Grains of 3 mm are held, as in `packed_bed`, 50 K hotter than the gas that comes in, and too heavy to cool. The number
+Grains of 3 mm, which nothing moves, are 50 K hotter than the gas that comes in, and too heavy to cool. The number
 is that of the run's own heat balance: of what gas leaves with, and of the closed form of a bed in which heat is
 exchanged and conducted along the flow, D T'' - U T' + U s (T_p - T) = 0, s = 6 alpha_p Nu k/(d rho c_p U d).
 
@@ -57,7 +57,7 @@ def wakao(reynolds, prandtl: float):
 def nusselt(reynolds: float, cell: float, folder: Path, overrides, reporter) -> tuple[float, float, float]:
     """Nu [-] of a run by what its gas leaves with, of the law that it uses, and of Wakao & Funazkri's law."""
     place = folder / f"bed-heat-{reynolds:g}-{1e3 * cell:g}mm"
-    case = cases.load(scenes.find("fluidised_column")[1], (*given(reynolds, cell), *overrides))
+    case = at_rest(reynolds, cell, overrides)
     driver.run(case, "fluidised_column", place, None, reporter)
     history, gas = compare.open_run(place).history, case.gas
     hot = case.particles["bed"].temperature
@@ -65,6 +65,15 @@ def nusselt(reynolds: float, cell: float, folder: Path, overrides, reporter) -> 
     prandtl = heat.prandtl_number(gas.viscosity, gas.heat_capacity, gas.conductivity)
     law = getattr(heat, LAW)(1.0 - SHARE, reynolds / (1.0 - SHARE), prandtl)
     return by_balance(case, left, DEEP * cell), law, wakao(reynolds, prandtl)
+
+
+def at_rest(reynolds: float, cell: float, overrides=()):
+    """The scene with heat alone, for a Reynolds number and a size of cells [m]."""
+    table = cases.located(scenes.find("fluidised_column")[1])
+    del table["drag"]
+    for text in (*given(reynolds, cell), *overrides):
+        cases.put(table, text)
+    return cases.from_working_directory(table)
 
 
 def by_balance(case, left: float, deep: float) -> float:
@@ -86,7 +95,7 @@ def given(reynolds: float, cell: float) -> list[str]:
     return [
         "coupling.gas='embedded'",
         "coupling.window_largest_s=0.01",
-        "effects=['drag', 'gas_pressure', 'heat', 'walls']",
+        "effects=['heat', 'walls']",  # nothing pushes the grains
         f"heat.law={LAW!r}",
         "domain.gravity_m_s2=[0.0, -1e-9]",  # says which way is up
         f"domain.size_m=[{width!r}, {top!r}]",
