@@ -51,9 +51,9 @@ def test_beds_as_measured_pass_and_others_are_told(tmp_path, monkeypatch, beds, 
     for name in ("n [-], Richardson", "halves"):
         assert any(name in text for text in failed) == (name in missed), name
     measured = [check for check in checks if "over the measured" in check["name"]]
-    assert len(checks) == 11 and len(measured) == 4
+    assert len(checks) == 9 and len(measured) == 3
     if not apart and not shift:
-        assert [check["value"] for check in measured] == pytest.approx([1.0] * 4)
+        assert [check["value"] for check in measured] == pytest.approx([1.0] * 3)
     assert (tmp_path / "liquid_beds.png").is_file()
 
 
