@@ -106,7 +106,10 @@ def _study(commands) -> None:
     check.add_argument("--gas", choices=("openfoam", "embedded"), help="gas solver (default: openfoam where it is)")
     check.add_argument("--out", type=Path, help="keep the runs in this folder")
     check.add_argument(
-        "--record", type=Path, metavar="FOLDER", help="keep the checks of each scene with date and commit: SCENE.json"
+        "--record",
+        type=Path,
+        metavar="FOLDER",
+        help="keep the checks of each scene with date and commit: SCENE.json; of a part, among those of its study",
     )
     check.add_argument("--json", action="store_true", help="print the checks as JSON")
     _workers(check, "scenes")

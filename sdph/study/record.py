@@ -59,7 +59,7 @@ def kept(folder: Path | None, scene: str) -> dict | None:
 
 
 def stamp(gas: str | None) -> dict:
-    """When, by which program and with which gas checks are measured."""
+    """Date, version and commit of now, and the gas that was asked for."""
     today = datetime.datetime.now(datetime.UTC).date().isoformat()
     return {"date": today, "version": __version__, "commit": commit(), "gas": gas or "as found"}
 
