@@ -15,9 +15,10 @@ from sdph.study import compare, record, validate
 PARTS = {
     "experiments": {
         "packed_bed": "friction", "minimum_fluidisation": "U_mf", "liquid_fluidisation": "index n",
-        "liquid_beds": "liquid bed of", "bed_heat": "heat in a packed bed",
+        "liquid_beds": "liquid bed of",
         "water_drops": "drop's", "heptane_drops": "heptane", "humid_drops": "water drop",
-        "micro_drops": "micrometric drop", "bed_transfer": "transfer in a bed", "heated_bed": "packed steel",
+        "micro_drops": "micrometric drop", "bed_transfer": "transfer in a bed",
+        "bed_heat": "heat in a packed bed", "heated_bed": "packed steel",
         "hot_tube": "hot tube", "tube_bank": "tube bank", "bed_pressure": "bed of beads",
         "bed_profiles": "bed of seeds",
         "drop_spread": "spread of a drop",
