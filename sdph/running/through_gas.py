@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from coupling.gas import GasError
+from sdph.case import judge
+from sdph.methods.grains import expansion
 
 PART = 4.0  # a window that the gas cannot finish is taken again, so much shorter (our choice),
 REPEATS = 4  # so often at most: down to 1/256
@@ -27,7 +29,9 @@ def advance(run, end: float):
             f"{failure}"
         )
     keys = f"coupling.window_largest_s below {tried:.2g} or coupling.courant (now {run.case.coupling.courant:g})"
+    begins = expansion.told_by(run.case, judge.scales_of(run.case), run.time)
     raise GasError(
         f"the gas cannot finish window {run.windows + 1} at t = {run.time:.6g} s, not even {tried:.3g} s of it: "
-        f"{failure}; lower {keys}, or look at what enters there ([boundaries], [nozzles]) and at resolution.cell_mm"
+        f"{failure}{begins}; lower {keys}, or look at what enters there ([boundaries], [nozzles]) and at "
+        "resolution.cell_mm"
     )

@@ -8,7 +8,7 @@ from sdph import effects
 from sdph.case import bodies, judge, probed
 from sdph.effects.grains import conduction
 from sdph.laws.sound import FAST
-from sdph.methods.grains import start, ways
+from sdph.methods.grains import expansion, start, ways
 from sdph.methods.grains.scales import THIN
 from sdph.study.explain import (
     droplets,
@@ -115,7 +115,12 @@ def _of_gas(case, scales, priced) -> list[str]:
     """Notes on grains in a gas."""
     edges, fastest = (priced.edges, priced.fastest) if priced else (None, 0.0)
     of_droplets = *droplets.boiling(case), *droplets.flying(scales, case.effects)
-    own = *eddies.warnings(scales), *mach.warnings(case, fastest), *haze.warnings(case, scales)
+    own = (
+        *eddies.warnings(scales),
+        *mach.warnings(case, fastest),
+        *haze.warnings(case, scales),
+        *expansion.warnings(case, scales),
+    )
     return [*estimate.warnings(case, edges), *own, *of_droplets, *pressed.warnings(case)]
 
 
