@@ -49,6 +49,12 @@ def kernel(case) -> DragP:
     return DragP(LAWS.index(own.law), case.gas.viscosity, case.grains.density, unresolved)
 
 
+def terminal(s) -> float:
+    """Speed [m/s] at which a lone grain of the scales `s` falls in the end, however short the run."""
+    heavy = math.hypot(*s.weight)
+    return law.terminal_velocity(s.grains.diameter, s.grains.density, s.gas.density, s.gas.viscosity, heavy)
+
+
 def filter_width(case) -> float:
     """Width of the filter g Delta/v_t^2 [-], Delta of `filter_cells` cells; those of an own mesh count with the width
     that the case gives."""

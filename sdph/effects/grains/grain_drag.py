@@ -21,6 +21,7 @@ from typing import NamedTuple
 from numba import prange
 
 from sdph.effects.effect import Effect, Judgement
+from sdph.effects.gas import drag
 from sdph.engine.geometry import apart, faster, squared
 from sdph.engine.ledger import Column
 from sdph.engine.rows import entry
@@ -101,7 +102,7 @@ def call(scales) -> Judgement:
     source = "Syamlal 1987: grains of two materials meet as soon as they move apart"
     if not scales.case.mixed or not scales.collides:
         return Judgement("difference of terminal velocities", 0.0, 0.01, source, 0.0)
-    falls = [type(scales)(scales.case.of_one(name)).falling for name in scales.case.materials]
+    falls = [drag.terminal(type(scales)(scales.case.of_one(name))) for name in scales.case.materials]
     apart_ = (max(falls) - min(falls)) / max(falls) if max(falls) else 0.0
     return Judgement("difference of terminal velocities", apart_, 0.01, source, apart_)
 

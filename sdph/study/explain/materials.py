@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from sdph.effects.gas import drag
 from sdph.effects.grains import conduction
 from sdph.methods.grains import start
 from sdph.methods.grains.materials import fluidising
@@ -28,7 +29,7 @@ def touching(s) -> list[tuple]:
 
 def rows(case) -> list[dict]:
     """A row for each of several materials: Archimedes number, U_mf of a bed of it alone, as dense as that of all
-    (Ergun), and the velocity at which a lone grain falls within the run (Gidaspow's drag)."""
+    (Ergun), and the velocity at which a lone grain falls in the end (Schiller & Naumann)."""
     if not case.mixed:
         return []
     gas, found = case.gas, []
@@ -38,7 +39,7 @@ def rows(case) -> list[dict]:
         found.append({
             "material": name, "density [kg/m3]": grains.density, "diameter [mm]": 1e3 * grains.diameter,
             "Archimedes": excess * grains.diameter**3 / gas.viscosity**2, "U_mf [m/s]": speed,
-            "terminal velocity [m/s]": s.falling,
+            "terminal velocity [m/s]": drag.terminal(s),
         })  # fmt: skip
     return found
 
