@@ -14,10 +14,13 @@ from typing import Any
 import numpy as np
 import scipy
 
+from sdph.exchange.equations import LEAST_SPAN
+
 BATCHES = 5  # of a quarter: fewer do not tell scatter, more are too short for what flows remember; our choice
 # Student's t, in standard errors: 95 % of the means of a quarter lie nearer to the true one, of two to each other
 ALONE, APART = (scipy.special.stdtrit(known, 0.975) for known in (BATCHES - 1, 2 * (BATCHES - 1)))
-ALIKE = 0.005  # of the mean: what changes less is steady whatever its scatter; our choice
+# of the mean, or of the range of a temperature: what changes less is steady whatever its scatter; our choice
+ALIKE = 0.005
 
 
 def rows(columns: Mapping[str, np.ndarray]) -> list[dict[str, Any]]:
@@ -39,12 +42,20 @@ def rows(columns: Mapping[str, np.ndarray]) -> list[dict[str, Any]]:
         if np.ptp(own) <= 1e-12 * np.abs(own).max():
             continue
         sums = np.add.reduceat(values * steps, ends[:-1]) / np.add.reduceat(steps, ends[:-1])
-        found.append(_row(name, sums[:BATCHES], sums[BATCHES:]))
+        found.append(_row(name, sums[:BATCHES], sums[BATCHES:], _alike(name, values, sums[BATCHES:].mean())))
     return found
 
 
-def _row(name: str, before: np.ndarray, last: np.ndarray) -> dict[str, Any]:
+def _alike(name: str, values: np.ndarray, mean: float) -> float:
+    """Change that counts as none: `ALIKE` of the last `mean`, or, of temperatures, of what the column went through
+    since the start, LEAST_SPAN at least."""
+    if not name.endswith("_K"):
+        return ALIKE * abs(mean)
+    return ALIKE * max(float(np.ptp(values[np.isfinite(values)])), LEAST_SPAN)
+
+
+def _row(name: str, before: np.ndarray, last: np.ndarray, alike: float) -> dict[str, Any]:
     change, scatter = last.mean() - before.mean(), [own.std(ddof=1) / math.sqrt(BATCHES) for own in (last, before)]
     own = {"mean": last.mean(), "doubt": ALONE * scatter[0], "a_quarter_before": before.mean(), "change": change}
-    steady = abs(change) <= max(APART * math.hypot(*scatter), ALIKE * abs(own["mean"]))
+    steady = abs(change) <= max(APART * math.hypot(*scatter), alike)
     return {"column": name} | {key: float(value) for key, value in own.items()} | {"steady": bool(steady)}

@@ -55,3 +55,21 @@ def test_what_says_nothing_has_no_row():
     assert row(TIME[:8], TIME[:8]) is None and row(np.zeros(0), np.zeros(0)) is None
     early = np.where(TIME > 1.0, 1.0 + 0.1 * np.sin(30 * TIME), np.nan)
     assert row(early)["steady"]
+
+
+@pytest.mark.parametrize(("excess", "steady"), [(3.5, False), (1e-3, True)])
+def test_temperatures_are_measured_by_what_they_went_through_and_not_from_zero(excess, steady):
+    """Of 300 K half a per cent would be 1.5 K; what changes by less than that of LEAST_SPAN has not changed."""
+    values = 300.0 + excess * np.clip(TIME - 1.0, 0.0, None) / 3.0
+    (own,) = steadiness.rows({"time_s": TIME, "top_gas_temperature_K": values})
+    assert own["steady"] is steady and own["change"] < 0.005 * own["mean"]
+    (other,) = steadiness.rows({"time_s": TIME, "top_gas_pressure_Pa": values})
+    assert other["steady"]
+    early = np.where(TIME > 0.5, values, np.nan)
+    assert steadiness.rows({"time_s": TIME, "top_K": early})[0]["steady"] is steady
+
+
+def test_a_temperature_that_came_a_long_way_may_change_by_its_share_of_that():
+    values = 300.0 + 100.0 * (1.0 - np.exp(-2.5 * TIME))
+    (own,) = steadiness.rows({"time_s": TIME, "top_K": values})
+    assert own["steady"] and 0.1 < own["change"] < 0.005 * 100.0
