@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from sdph.case.gas_cells import upwards
 from sdph.engine.state import by_material
 from sdph.methods.grains import start
@@ -41,6 +43,7 @@ AT_OUTPUTS = {
 }
 IN_THE_END = {"bubble": bed_in_the_end}
 SAME_TIME = 1e-12  # of a time
+OF_PRESSURE = ("pressure_drop_Pa", "gradient_Pa_m")  # the gas has none before its first window
 
 
 def row(simulation) -> dict[str, float]:
@@ -51,7 +54,7 @@ def row(simulation) -> dict[str, float]:
         with simulation.whole():
             for name in own:
                 columns |= AT_OUTPUTS[name](simulation)
-    return columns
+    return columns | {name: math.nan for name in OF_PRESSURE if name in columns and not simulation.windows}
 
 
 def names(case) -> list[str]:

@@ -15,6 +15,7 @@ from sdph.case import read as cases
 from sdph.case.gas_cells import CellRows
 from sdph.engine import state as particles
 from sdph.laws import exact
+from sdph.running import metrics
 from sdph.running.metrics import column
 from sdph.schema import CaseError
 
@@ -64,6 +65,21 @@ def test_up_is_against_gravity(tmp_path):
     for axis, sense in ((0, 1), (2, 1), (2, -1)):
         other, _ = measured(vessel(axis, sense), tmp_path / f"{axis}{sense}")
         assert other == pytest.approx(upright, rel=1e-3), (axis, sense)
+
+
+def test_the_row_of_the_start_has_no_pressure_and_the_next_has_it(tmp_path):
+    """Before its first window the gas has none; the curve of the report and means go by the rest."""
+    case = vessel(1, 1)
+    case = dataclasses.replace(case, run=dataclasses.replace(case.run, metrics=("column",), average_from=1e-4))
+    simulation = started(case, tmp_path, EmbeddedGas(case))
+    first = metrics.row(simulation)
+    simulation.window()
+    simulation.ledger.table.close()
+    last, drop = metrics.row(simulation), ("pressure_drop_Pa", "gradient_Pa_m")
+    assert [np.isnan(first[name]) for name in drop] == [True, True] and first["bed_height_m"] > 0.0
+    assert last == {"time_s": simulation.time} | column.metrics(simulation) and last["pressure_drop_Pa"] > 0.0
+    mean = metrics.means([first, last | {"time_s": 1e-3}], case.run.average_from)
+    assert mean["mean_pressure_drop_Pa"] == last["pressure_drop_Pa"]
 
 
 def test_a_bed_of_one_row_has_no_gradient(tmp_path):
