@@ -15,6 +15,7 @@ from sdph.study.explain import (
     eddies,
     edges,
     estimate,
+    factor,
     haze,
     liquids,
     lockstep,
@@ -77,6 +78,7 @@ def _explain(case, priced, shared=None) -> dict[str, list[dict]]:
     scales = judge.scales_of(case)
     own = OF.get(case.moved_by(judge.matter(case)))
     found = own.explain(scales, *([shared] if shared else [])) if own else _of_grains(case, scales, priced)
+    found["limits"] = factor.applied(case, found["limits"])
     return {
         "numbers": [
             dict(zip(("number", "value", "threshold", "meaning", "source"), row)) for row in found.pop("numbers")
