@@ -11,6 +11,7 @@ from coupling.openfoam import dictionary, foreign
 from coupling.openfoam.foreign.conditions import SYMMETRIES
 from coupling.openfoam.poly_mesh import FOLDER
 from sdph import effects
+from sdph.case.hot_walls import FELT
 from sdph.engine.walls.faces import KINDS
 from sdph.running import output
 from sdph.scenes import paths
@@ -42,8 +43,7 @@ def _of_hot_walls(found) -> list[str]:
     """A note where walls have a temperature: cases are made without the effect that brings it to the grains."""
     given = {name: own.entries for name, own in found.boundaries.items()}
     hot = [name for name, own in given.items() if own["kind"] in KINDS and "temperature_K" in own]
-    told = "the gas feels the temperature of these walls, grains with wall_heat in effects alone"
-    return [f"boundaries {', '.join(hot)}: {told}"] if hot else []
+    return [f"boundaries {', '.join(hot)}: {FELT}"] if hot else []
 
 
 def _limit(schemes: Path) -> None:

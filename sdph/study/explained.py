@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sdph.case import fluids, forces, paced, usual
+from sdph.case import fluids, forces, hot_walls, paced, usual
 from sdph.effects.solids import rigid_sides
 from sdph.study import against, closed_vessels, gas_keys, inlets, rehearsal
 from sdph.study.explain import gel, lockstep, materials, recorded, tables, vessel
@@ -37,12 +37,6 @@ def _of_case(case, mesh) -> list[str]:
     """Warnings of a case with all its matters."""
     of_gas = [*gas_keys.warnings(case), *gas_keys.unseen(case, mesh), *inlets.warnings(case, mesh)]
     of_gas += closed_vessels.warnings(case, mesh)
-    of_steps = paced.warnings(case)
-    return [
-        *of_gas,
-        *of_steps,
-        *usual.warnings(case),
-        *rigid_sides.warnings(case),
-        *gel.warnings(case),
-        *lockstep.warnings(case),
-    ]
+    of_grains = *paced.warnings(case), *hot_walls.warnings(case)
+    told = usual.warnings(case) + rigid_sides.warnings(case) + gel.warnings(case) + lockstep.warnings(case)
+    return [*of_gas, *of_grains, *told]
