@@ -61,4 +61,4 @@ def told_by(case, s, time: float) -> str:
     found = of(case, s)
     if not found or time > found.time:
         return ""
-    return f"; it takes the temperature of the grains in {found.time:.2g} s: begin with {keys(case, found)} alike"
+    return f"; gas among the grains takes their temperature in {found.time:.2g} s: begin with {keys(case, found)} alike"
