@@ -164,15 +164,17 @@ def in_front(places, walls, spacing: float, layers: float, near: float = CONTACT
     return front
 
 
-def below(where: str, region, places, up, spacing: float, each: float, world=ALONE) -> np.ndarray:
+def below(where: str, region, places, up, spacing: float, each: float, world=ALONE, walls=None) -> np.ndarray:
     """Mask (N,) of the places up to the level of a region, `each` [kg] the mass of a particle; `up` (d,). Each process
-    of a world has a part of the places; of a region with a mass each has all."""
+    of a world has a part of the places; of a region with a mass each has all.
+    `walls` as in `bounds`."""
     height = places @ up
     if region.height is not None:
         least = world.least(float(height.min(initial=math.inf)))
         span = world.most(float(height.max(initial=-math.inf))) - least + spacing
         if region.height > span + spacing:
-            raise CaseError(f"{where}.height_m = {region.height:g}; its region is {span:.4g} m high: give less")
+            tall = _tall(region, walls, up, span)
+            raise CaseError(f"{where}.height_m = {region.height:g}; its region is {tall:.4g} m high: give less")
         return height <= least + region.height - (BELOW - SAME) * spacing
     count = max(1, round(region.mass / each))
     if count > len(places):
@@ -183,6 +185,14 @@ def below(where: str, region, places, up, spacing: float, each: float, world=ALO
     mask = np.zeros(len(places), bool)
     mask[chosen] = True
     return mask
+
+
+def _tall(region, walls, up, span: float) -> float:
+    """Height [m] of a region along an axis; along none the `span` of its places."""
+    if np.count_nonzero(up) != 1:
+        return span
+    low, high = bounds(region, walls, len(up))
+    return float(np.abs(up) @ (high - low))
 
 
 def disordered(places, share: float, seed: int, spacing: float, before: int = 0) -> np.ndarray:

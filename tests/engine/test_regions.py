@@ -134,6 +134,18 @@ def test_a_level_is_that_of_its_height_or_its_mass():
     assert points[sideways][:, 0].min() > 0.05 and sideways.sum() == 100
 
 
+@pytest.mark.parametrize("tall", [0.204, 0.196])
+def test_a_level_above_its_vessel_is_told_with_the_height_of_that(tmp_path, tall):
+    """Rows of its lattice are 0.2 m high, whatever it is."""
+    walls = line(tmp_path, [(0.0, 0.0), (0.1, 0.0), (0.1, tall), (0.0, tall)], loop=True)
+    own = region("walls", height=9.0)
+    points, told = regions.points(own, SPACING, 2, walls), rf"its region is {tall:g} m high: give less"
+    with pytest.raises(CaseError, match=told):
+        regions.below("a", own, points, np.array([0.0, 1.0]), SPACING, 1.0, walls=walls)
+    with pytest.raises(CaseError, match=r"its region is .* m high"):  # along no axis, that of its places
+        regions.below("a", own, points, np.array([0.6, 0.8]), SPACING, 1.0, walls=walls)
+
+
 def test_disorder_is_that_of_its_seed():
     points = np.zeros((100, 2))
     first, second = (regions.disordered(points, 0.2, seed, SPACING) for seed in (1, 2))

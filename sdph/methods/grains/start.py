@@ -264,7 +264,7 @@ def _reached(case, where: str, region, points, walls, each: float, notices, worl
     if region.height is not None or region.mass is not None:
         gravity = np.array(case.domain.gravity)
         up = -gravity / np.linalg.norm(gravity)
-        points = points[regions.below(where, region, points, up, spacing, each, world)]
+        points = points[regions.below(where, region, points, up, spacing, each, world, walls)]
         if not world.any(len(points) > 0):
             raise CaseError(f"{where}.height_m = {region.height:g} is below half a spacing: give more")
     return points
