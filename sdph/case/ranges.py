@@ -20,7 +20,10 @@ class Range(NamedTuple):
 
 
 OF_GRAINS = Range(5.0, 25000.0, "from foam to gold", (("g/cm3", 1e3),))
-TEMPERATURE = Range(100.0, 5000.0, "from where air is about to liquefy to where all is vapour", ((CELSIUS, 273.15),))
+TEMPERATURE = Range(200.0, 5000.0, "from dry ice to where all is vapour", ((CELSIUS, 273.15),))
+OF_COLD = Range(1.0, 5000.0, "from liquid helium to where all is vapour", ((CELSIUS, 273.15),))  # see sdph.case.usual
+# a micrometre is finer than any powder that flows, and 0.3 to 1 mm, given in metres, is below it
+SIZE = Range(1e-3, 100.0, "from fine dust to stones", (("m", 1e3), ("um", 1e-3)))
 CAPACITY = Range(100.0, 20000.0, "from xenon to hydrogen", (("kJ/(kg K)", 1e3),))
 MOLAR = Range(2.0, 2000.0, "from hydrogen to a polymer", (("kg/mol", 1e3),))
 TENSION = Range(1e-5, 5.0, "from near the critical point to molten metal", (("mN/m", 1e-3),))
@@ -50,9 +53,7 @@ USUAL = {
                                      (("cm2/s", 1e-4), ("mm2/s", 1e-6))),
     "evaporation.latent_heat_J_kg": Range(1e4, 1e8, "from helium to metals", (("kJ/kg", 1e3),)),
     "grains.density_kg_m3": OF_GRAINS, "grains.*.density_kg_m3": OF_GRAINS,
-    "grains.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
-    "grains.*.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
-    "nozzles.*.diameter_mm": Range(5e-4, 100.0, "from smoke to stones", (("m", 1e3), ("um", 1e-3))),
+    "grains.diameter_mm": SIZE, "grains.*.diameter_mm": SIZE, "nozzles.*.diameter_mm": SIZE,
     "grains.surface_tension_N_m": TENSION,
     "nozzles.*.speed_m_s": SPEED, "boundaries.*.velocity_m_s": SPEED, "particles.*.velocity_m_s": SPEED,
     "solid.youngs_modulus_Pa": MODULUS, "micro_explosion.youngs_modulus_Pa": MODULUS,

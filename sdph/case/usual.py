@@ -11,13 +11,23 @@ import math
 import numpy as np
 
 from sdph.case import fluids
-from sdph.case.ranges import CELSIUS, DENSE, OF_DENSE, OF_LIQUIDS, RATIOS, USUAL, Range
+from sdph.case.ranges import (
+    CELSIUS,
+    DENSE,
+    OF_COLD,
+    OF_DENSE,
+    OF_LIQUIDS,
+    RATIOS,
+    TEMPERATURE,
+    USUAL,
+    Range,
+)
 from sdph.case.read import to_table
 from sdph.effects.around import sizes
 from sdph.effects.gas import film
 from sdph.effects.solids import inflation
 from sdph.laws import size_classes, solids
-from sdph.laws.constants import GAS_CONSTANT
+from sdph.laws.constants import GAS_CONSTANT, ROUND_OFF
 from sdph.schema import CaseError
 
 CONDUCTIVITY = "conductivity_W_m_K"
@@ -39,9 +49,10 @@ def _in_units(case) -> bool:
 
 def _ranges(case) -> dict[str, Range]:
     """Ranges by which a case is judged; what flows is as viscous by the density that it is likely meant to have."""
+    usual = {key: OF_COLD if own is TEMPERATURE else own for key, own in USUAL.items()} if _cold(case) else USUAL
     if not _in_units(case):
-        return USUAL
-    found = USUAL | OF_LIQUIDS
+        return usual
+    found = usual | OF_LIQUIDS
     for section, least in (("liquid", 2e-6), ("gas_phase", 1e-6)):
         if own := getattr(case, section):
             slips = ("m2/s", own.density), ("mPa s", 1e-3), ("uPa s", 1e-6)
@@ -49,6 +60,29 @@ def _ranges(case) -> dict[str, Range]:
     if case.solid and case.solid.density > DENSE:
         found["solid.youngs_modulus_Pa"] = OF_DENSE
     return found
+
+
+def _cold(case) -> bool:
+    """True where a case is of what is cold by nature: of a gas that is as dense as it is cold, or of a liquid, by its
+    name, that boils below what is usual."""
+    gas, least = case.gas, TEMPERATURE.least
+    if gas and not gas.fluid and gas.temperature < least and abs(gas.density / _by_state(gas) - 1.0) <= UNLIKE:
+        return True
+    pressure = gas.operating_pressure if gas else fluids.ATMOSPHERE
+    return any(_boils(own.fluid, pressure) < least for own in (case.grains, case.liquid) if own and own.fluid)
+
+
+def _boils(name: str, pressure: float) -> float:
+    """Temperature [K] at which a fluid boils; inf where nobody knows it."""
+    try:
+        return fluids.Fluid(name, "grains").at("T", P=pressure, Q=0.0)
+    except CaseError:  # no library, or no line of boiling at that pressure
+        return math.inf
+
+
+def _by_state(gas) -> float:
+    """Density [kg/m3] that a gas has by its pressure and temperature."""
+    return gas.operating_pressure * gas.molar_mass / (GAS_CONSTANT * gas.temperature)
 
 
 def warnings(case) -> list[str]:
@@ -67,7 +101,7 @@ def far(table: dict, ranges: dict[str, Range]) -> list[str]:
     for pattern, usual in ranges.items():
         for key, value in _found(table, pattern.split(".")):
             size = float(np.linalg.norm(value))
-            if size and not usual.least < size < usual.most:
+            if size and not _within(size, usual):
                 bounds = f"{usual.least:g} to {usual.most:g} ({usual.what})"
                 told.append(f"{key} = {_shown(value)} is far from usual, {bounds}{_likely(value, usual)}")
     return told
@@ -78,7 +112,7 @@ def _ratios(table: dict) -> list[str]:
     told = []
     for (key, other), usual in RATIOS.items():
         pairs = [dict(_found(table, name.split("."))).get(name) for name in (key, other)]
-        if all(pairs) and not usual.least < (ratio := pairs[0] / pairs[1]) < usual.most:
+        if all(pairs) and not _within(ratio := pairs[0] / pairs[1], usual):
             told.append(
                 f"{key} = {pairs[0]:g} is {ratio:.3g} of {other} = {pairs[1]:g}; usual is {usual.least:g} to "
                 f"{usual.most:g} ({usual.what}); {_meant_of_both(key, other, pairs, usual)}"
@@ -93,7 +127,7 @@ def _meant_of_both(key: str, other: str, values: list[float], usual: Range) -> s
         f"if {unit} was meant, give {one} = {value * factor:g}"
         for unit, factor in usual.slips
         for one, value, moved in ((key, values[0], ratio * factor), (other, values[1], ratio / factor))
-        if usual.least < moved < usual.most
+        if _within(moved, usual)
     ]
     return "; ".join(meant) or "look at the units of both"
 
@@ -121,7 +155,7 @@ def _unlike_its_state(case) -> list[str]:
     gas = case.gas
     if gas is None or gas.equation_of_state == "constant":
         return []
-    own = gas.operating_pressure * gas.molar_mass / (GAS_CONSTANT * gas.temperature)
+    own = _by_state(gas)
     if abs(gas.density / own - 1.0) <= UNLIKE:
         return []
     state = (
@@ -249,6 +283,11 @@ def _overruled(table: dict) -> list[str]:
     return told
 
 
+def _within(value: float, usual: Range) -> bool:
+    """True from the least to the most, both among them, as the line says."""
+    return (1.0 - ROUND_OFF) * usual.least <= value <= (1.0 + ROUND_OFF) * usual.most
+
+
 def _found(table, path: list[str], before: str = ""):
     """(key, value) of all that a pattern finds in a table."""
     name, *rest = path
@@ -265,7 +304,7 @@ def _likely(value, usual: Range) -> str:
     told = []
     for unit, factor in usual.slips:
         meant = value + factor if unit == CELSIUS else np.multiply(value, factor).tolist()
-        if usual.least <= float(np.linalg.norm(meant)) <= usual.most:
+        if _within(float(np.linalg.norm(meant)), usual):
             told.append(f"if {unit} was meant, give {_shown(meant)}")
     return "; " + ("; ".join(told) or "look at its unit, unless that is meant")
 

@@ -24,6 +24,10 @@ def test_no_scene_is_warned_of(scene):
     [
         ("bubbling_bed", "gas.temperature_K=20", "if degrees Celsius was meant, give 293.15"),
         ("bubbling_bed", "particles.bed.temperature_K=77", "if degrees Celsius was meant, give 350.15"),
+        ("bubbling_bed", "particles.bed.temperature_K=127", "if degrees Celsius was meant, give 400.15"),
+        ("bubbling_bed", "boundaries.jet.temperature_K=199", "if degrees Celsius was meant, give 472.15"),
+        ("bubbling_bed", "grains.diameter_mm=6e-4", "if m was meant, give 0.6"),
+        ("spray_cone", "nozzles.cone.diameter_mm=6e-4", "if m was meant, give 0.6"),
         ("bubbling_bed", "boundaries.jet.temperature_K=20", "boundaries.jet.temperature_K = 20 is far from usual"),
         ("bubbling_bed", "domain.gravity_m_s2=[0,-9810]", "if mm/s2 was meant, give [0, -9.81]"),
         ("bubbling_bed", "gas.viscosity_Pa_s=1e3", "look at its unit, unless that is meant"),
@@ -65,6 +69,11 @@ def test_a_density_that_the_equation_of_state_does_not_give_is_told():
     assert usual.warnings(load("bubbling_bed", *given, "gas.density_kg_m3=69.7")) == []
 
 
+@pytest.mark.parametrize(("given", "lines"), [("1e-6", 0), ("9e-7", 1), ("3000", 0), ("3001", 1)])
+def test_bounds_that_a_line_tells_are_usual_themselves(given, lines):
+    assert len(usual.warnings(load("bubbling_bed", f"boundaries.jet.velocity_m_s=[0,{given}]"))) == lines
+
+
 def test_liquids_without_units_are_not_judged():
     """Benchmarks: a density of 1, or a gravity that makes the Froude number round."""
     for scene, override in (("taylor_green", "liquid.viscosity_Pa_s=1e-7"), ("bubble_rise", "liquid.density_kg_m3=10")):
@@ -96,6 +105,20 @@ def test_sizes_that_are_all_but_cut_off_are_told(given, told):
         table["nozzles"]["cone"][key.rpartition(".")[2]] = value.strip("'") if "'" in value else float(value)
     found = usual.warnings(cases.from_table(table))
     assert len(found) == bool(told) and all(f"nozzles.cone.{told}" in line for line in found)
+
+
+def test_what_is_cold_by_nature_is_not_warned_of():
+    """Air at 127 K as dense as it is there, by hand 101325 28.96/(8314.46 127) = 2.779 kg/m3; drops of nitrogen."""
+    cold = "gas.temperature_K=127", "particles.bed.temperature_K=127", "boundaries.jet.temperature_K=127"
+    assert len(usual.warnings(load("bubbling_bed", *cold))) == 3
+    assert usual.warnings(load("bubbling_bed", *cold, "gas.density_kg_m3=2.78")) == []
+    assert len(usual.warnings(load("bubbling_bed", *cold[1:], "gas.density_kg_m3=2.78"))) == 2  # the gas is not cold
+    drops = "nozzles.cone.temperature_K=77", "evaporation.boiling_temperature_K=77.4"
+    lines = usual.warnings(load("spray_cone", *drops))
+    told = [line for line in lines if "_temperature_K" in line or ".temperature_K" in line]
+    assert len(told) == 2
+    named = usual.warnings(load("spray_cone", *drops, 'grains.fluid="nitrogen"', "grains.fluid_temperature_K=77"))
+    assert not any("far from usual" in line for line in named)
 
 
 def test_a_nozzle_that_opens_when_all_is_over_is_told():
@@ -146,6 +169,6 @@ def test_explain_and_run_warn_of_it(tmp_path, capsys):
     table["gas"]["temperature_K"], table["run"] = 20.0, {"end_time_s": 1e-4, "output_interval_s": 1e-4}
     (tmp_path / "case.toml").write_text(tomli_w.dumps(table))
     assert main(["explain", str(tmp_path), "--gas", "embedded"]) == 0
-    assert "gas.temperature_K = 20 is far from usual, 100 to 5000" in capsys.readouterr().out
+    assert "gas.temperature_K = 20 is far from usual, 200 to 5000" in capsys.readouterr().out
     assert main(["run", str(tmp_path), "--gas", "embedded", "--out", str(tmp_path / "out")]) == 0
     assert "warning: gas.temperature_K = 20 is far from usual" in capsys.readouterr().err
