@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from sdph.case import fluids
+from sdph.case import cold, fluids
 from sdph.case.ranges import (
     CELSIUS,
     DENSE,
@@ -27,12 +27,11 @@ from sdph.effects.around import sizes
 from sdph.effects.gas import film
 from sdph.effects.solids import inflation
 from sdph.laws import size_classes, solids
-from sdph.laws.constants import GAS_CONSTANT, ROUND_OFF
+from sdph.laws.constants import ROUND_OFF
 from sdph.schema import CaseError
 
 CONDUCTIVITY = "conductivity_W_m_K"
 AGAIN = 0.8, 1.25  # of the level of the pressure: an outlet there is likely given absolute; our choice
-UNLIKE = 0.1  # of the density that a gas has by its equation of state: vapour in it changes it by less; our choice
 MOSTLY = 0.5  # of the mass of drops: with more of it cut away, sizes are those of the bound; our choice
 OTHER = 0.02  # of a number of a fluid: what differs by less is another source's, or another temperature's; our choice
 EARTH = 9.7, 9.9  # m/s2, of gravity wherever there are people
@@ -49,7 +48,7 @@ def _in_units(case) -> bool:
 
 def _ranges(case) -> dict[str, Range]:
     """Ranges by which a case is judged; what flows is as viscous by the density that it is likely meant to have."""
-    usual = {key: OF_COLD if own is TEMPERATURE else own for key, own in USUAL.items()} if _cold(case) else USUAL
+    usual = {key: OF_COLD if own is TEMPERATURE else own for key, own in USUAL.items()} if cold.is_cold(case) else USUAL
     if not _in_units(case):
         return usual
     found = usual | OF_LIQUIDS
@@ -60,29 +59,6 @@ def _ranges(case) -> dict[str, Range]:
     if case.solid and case.solid.density > DENSE:
         found["solid.youngs_modulus_Pa"] = OF_DENSE
     return found
-
-
-def _cold(case) -> bool:
-    """True where a case is of what is cold by nature: of a gas that is as dense as it is cold, or of a liquid, by its
-    name, that boils below what is usual."""
-    gas, least = case.gas, TEMPERATURE.least
-    if gas and not gas.fluid and gas.temperature < least and abs(gas.density / _by_state(gas) - 1.0) <= UNLIKE:
-        return True
-    pressure = gas.operating_pressure if gas else fluids.ATMOSPHERE
-    return any(_boils(own.fluid, pressure) < least for own in (case.grains, case.liquid) if own and own.fluid)
-
-
-def _boils(name: str, pressure: float) -> float:
-    """Temperature [K] at which a fluid boils; inf where nobody knows it."""
-    try:
-        return fluids.Fluid(name, "grains").at("T", P=pressure, Q=0.0)
-    except CaseError:  # no library, or no line of boiling at that pressure
-        return math.inf
-
-
-def _by_state(gas) -> float:
-    """Density [kg/m3] that a gas has by its pressure and temperature."""
-    return gas.operating_pressure * gas.molar_mass / (GAS_CONSTANT * gas.temperature)
 
 
 def warnings(case) -> list[str]:
@@ -155,8 +131,8 @@ def _unlike_its_state(case) -> list[str]:
     gas = case.gas
     if gas is None or gas.equation_of_state == "constant":
         return []
-    own = _by_state(gas)
-    if abs(gas.density / own - 1.0) <= UNLIKE:
+    own = cold.by_state(gas)
+    if abs(gas.density / own - 1.0) <= cold.UNLIKE:
         return []
     state = (
         f"equation_of_state = {gas.equation_of_state!r} with {gas.operating_pressure:g} Pa and {gas.temperature:g} K"

@@ -13,6 +13,7 @@ from coupling.openfoam.poly_mesh import FOLDER
 from sdph.schema import CaseError
 
 UNIFORM = re.compile(rb"internalField\s+uniform\s+([^;]+);")
+TIME = re.compile(r"\d+(\.\d+)?(e[-+]?\d+)?")  # name of a folder of fields
 LIST = re.compile(rb"internalField\s+nonuniform\s+List<scalar>\s*(\d+)\s*\(")
 
 
@@ -66,12 +67,18 @@ class Files:
         return None if same is None else np.full(cells, same)
 
     def _start(self) -> str:
-        """Name of the folder that the case starts from; 0.orig where it is still to be copied."""
+        """Name of the folder that the case starts from; 0.orig where it is still to be copied; none of a mesh alone."""
         named = f"{dictionary.number(self.control.get('startTime')) or 0.0:g}"
         for name in (named, "0", "0.orig"):
             if (self.folder / name).is_dir():
                 return name
-        raise CaseError(f"{self.folder} has no fields to start from (no folder {named} and no 0.orig); put them back")
+        times = sorted(path.name for path in self.folder.iterdir() if path.is_dir() and TIME.fullmatch(path.name))
+        if not times:
+            return named  # a mesh alone
+        raise CaseError(
+            f"{self.folder} has no fields to start from (no folder {named} and no 0.orig, but {', '.join(times[:3])}); "
+            f"copy one of these to {named}, or make {named} empty and give conditions in case.toml"
+        )
 
     def _phases(self) -> tuple[str, str]:
         """Names of the gas and of the grains: these have a constant diameter, and the larger density."""

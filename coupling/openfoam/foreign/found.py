@@ -40,7 +40,7 @@ class Found:
 def look(folder: Path) -> Found:
     """Read a case; `CaseError` where it is none, has no mesh, or one that sdph does not know."""
     files = Files(folder)
-    mesh, notes = PolyMesh(files.folder), []
+    mesh, notes = PolyMesh(files.folder), _without_fields(files)
     dimensions = _dimensions(files, mesh)
     low, high = (corner[:dimensions] for corner in box(files.folder))
     gravity, grains = properties.gravity(files, dimensions, notes), properties.grains(files, notes)
@@ -56,6 +56,13 @@ def look(folder: Path) -> Found:
         properties.times(files, notes), gas, grains, region, found, properties.drag(files, notes),
         properties.friction_angle(files), (files.phase, files.grains), notes,
     )  # fmt: skip
+
+
+def _without_fields(files: Files) -> list[str]:
+    """A note where a mesh comes alone."""
+    if (files.folder / files.start).is_dir():
+        return []
+    return [f"the case has a mesh alone (no folder {files.start}): give the conditions of its patches in [boundaries]"]
 
 
 def _dimensions(files: Files, mesh: PolyMesh) -> int:
