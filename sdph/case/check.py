@@ -12,6 +12,7 @@ from sdph.case import (
     inlet_profiles,
     inlets,
     materials,
+    meshes,
     periods,
     probed,
     regions,
@@ -99,11 +100,7 @@ def _check_one(case: Case) -> None:
         given = f"domain.lower_m = {list(case.domain.lower)}"
         known = 'grains and of a liquid that sound travels in, not of solids nor of method.name = "mps"'
         raise CaseError(f"{given} is of {known}; leave it out")
-    for name, own in (*case.parameters.items(), *((f"particles.{name}", own) for name, own in case.particles.items())):
-        if getattr(own, "mesh_scale", 1.0) != 1.0 and not own.mesh:
-            raise CaseError(
-                f"{name}.mesh_scale = {own.mesh_scale:g}, and {name} names no mesh; name it, or leave it out"
-            )
+    meshes.check(case)
     periods.of_domain(case)
     turbulent.check(case)
     if any(isinstance(t, tuple) or t <= 0.0 for t in case.run.report_at):

@@ -107,6 +107,7 @@ class Region:
     end_radius: float | None = quantity("m", None, least=0.0)  # of a cone, at its upper end; radius is at the lower
     mesh: str = file()  # closed surface mesh of triangles that meshio reads, normals outwards
     mesh_scale: float = quantity("", 1.0, above=0.0)  # metres of a unit of `mesh`: 0.001 where it is in millimetres
+    mesh_offset: tuple | None = vector("m", None)  # by which it is moved, after that
     height: float | None = quantity("m", None, above=0.0)  # filled so high over the region's lowest point
     mass: float | None = quantity("kg", None, above=0.0)  # filled from below until so much is there; 2-D: by the metre
     velocity: tuple | None = vector("m_s", None)

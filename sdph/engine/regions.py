@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from sdph.engine.lattice import grid, lattice
+from sdph.engine.surface import unit
 from sdph.engine.walls import facets, shapes
 from sdph.engine.walls.dummies import CONTACT
 from sdph.engine.walls.outline import outline
@@ -105,7 +106,7 @@ def _surface(region):
     """The closed surface that a region is the inside of."""
     if region.shape == "outline":
         return outline("corners_m of particles", region.corners)
-    return shapes.Mesh(region.mesh, MESH, region.mesh_scale)
+    return shapes.Mesh(region.mesh, MESH, unit(region))
 
 
 def _radii(region) -> tuple[float, float]:

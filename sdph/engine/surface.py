@@ -6,6 +6,7 @@ import io
 import warnings
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -36,6 +37,28 @@ def refuse_size(key: str, path: str, points: np.ndarray, domain, spacing: float)
         f"{wide} resolution.spacing_mm = {1e3 * spacing:.4g}, which does not see it; look at {key}_scale, the metres "
         "of its unit, or lower the spacing"
     )
+
+
+class Unit(NamedTuple):
+    """Metres of a unit of a file, and where its origin stands (d,) [m]; None where that is the case's."""
+
+    scale: float = 1.0
+    offset: tuple | None = None
+
+    def placed(self, points: np.ndarray) -> np.ndarray:
+        """Points (P, 2 or 3) of the file in the case [m]."""
+        scaled = self.scale * np.asarray(points, float)
+        if self.offset is not None:
+            scaled[:, : len(self.offset)] += self.offset
+        return scaled
+
+
+METRES = Unit()
+
+
+def unit(own) -> Unit:
+    """Unit and place of the mesh that a section of a case names."""
+    return Unit(own.mesh_scale, own.mesh_offset)
 
 
 def read(path: str, key: str):

@@ -105,7 +105,7 @@ def _reader(key: str):
 
 def _facets(case) -> None:
     own, size = case.parameters["walls"], case.domain.size
-    corners = facets.read(own.mesh, case.dimensions, own.mesh_scale).reshape(-1, case.dimensions)
+    corners = facets.read(own.mesh, case.dimensions, surface.unit(own)).reshape(-1, case.dimensions)
     if not len(corners):
         raise CaseError(f"walls.mesh = {own.mesh!r} has no facet that is of a size; give one that has")
     surface.refuse_size("walls.mesh", own.mesh, corners, size, case.resolution.spacing)

@@ -14,6 +14,7 @@ from test_restart import Cut, Reporter
 
 from sdph import cli
 from sdph.case import read as cases
+from sdph.effects.around import tank
 from sdph.engine.walls import sides
 from sdph.methods.grains import start
 from sdph.running import driver, inputs, vessel
@@ -229,6 +230,34 @@ def test_a_scaled_surface_is_where_it_would_be_in_metres(tmp_path):
     )  # three layers behind, 5 to 25 mm: normals are outwards
     with pytest.raises(CaseError, match="walls.mesh_scale = 0.001, and walls names no mesh"):
         cases.from_table(GRAINS | {"walls": {"mesh_scale": 1e-3}})
+
+
+@pytest.mark.parametrize("table", [IN_SPACE, IN_SPACE | {"walls": {"mesh": "ball.stl"}, "particles": {}}, TANK])
+def test_a_surface_that_is_moved_is_where_it_would_be(tmp_path, table):
+    """By 0.05 m along x: from a file in millimetres whose ball stands so much to the left, or in place."""
+    own, named = write_case(tmp_path / "mine", table), inputs.named(cases.from_table(table))
+    (key,) = (key for key in ("walls.mesh", "tank.mesh", "particles.ball.mesh") if key in named)
+    ball(own / "ball.stl", 100.0)
+    moved = pyvista.read(own / "ball.stl").translate((-50.0, 0.0, 0.0))
+    there = _of_surface(cases.load(own / "case.toml", (f"{key}_scale=1e-3",)))
+    moved.save(own / "ball.stl")
+    case = cases.load(own / "case.toml", (f"{key}_scale=1e-3", f"{key}_offset_m=[0.05, 0, 0]"))
+    assert len(there) > 20 and np.allclose(_of_surface(case), there, atol=1e-7)
+    assert f"{key.rpartition('.')[2]}_offset_m = [\n    0.05," in cases.dumps(case)
+    with pytest.raises(CaseError, match="_offset_m has 2 components; dimensions = 3 asks for 3"):
+        cases.load(own / "case.toml", (f"{key}_offset_m=[0.05, 0]",))
+    with pytest.raises(CaseError, match=r"_offset_m = \[1.0, 0.0, 0.0\], and .* names no mesh"):
+        cases.load(own / "case.toml", (f"{key}=''", f"{key}_offset_m=[1, 0, 0]"))
+
+
+def _of_surface(case):
+    """Places of what a surface makes in a case: of its wall, of grains in it, of the tank's wall."""
+    if case.liquid:
+        return tank.shape_of(case).shell(0.5 * case.resolution.spacing, case.resolution.spacing)
+    if case.particles:
+        return np.transpose([getattr(start.fill(case, ()), axis) for axis in "xyz"])
+    behind = sides.dummies(case)
+    return behind.table[behind.whose[:, 0] > 0][:, :3]
 
 
 def test_the_gas_of_a_run_folder_is_that_which_it_began_with(tmp_path):

@@ -35,6 +35,7 @@ class Tank:
     corners: tuple | None = vector("m", None)  # of an outline, one after the other
     mesh: str = file()
     mesh_scale: float = quantity("", 1.0, above=0.0)  # metres of a unit of `mesh`: 0.001 where it is in millimetres
+    mesh_offset: tuple | None = vector("m", None)  # by which it is moved, after that
     open_sides: tuple = words(())
     slip: str = choice("no_slip", "free_slip")
     # whether a wall can pull, with a pressure below 0; None: full between two phases, where walls mirror the pressure
@@ -90,7 +91,7 @@ def shape_of(case):
         given = f"tank.open_sides = {list(own.open_sides)}, but tank.shape = {own.shape!r} is closed all around"
         raise CaseError(f"{given}; only a box and an outline have open sides: leave it out, or give one of these")
     if own.shape == "mesh":
-        return _mesh(case, own.mesh, own.mesh_scale)
+        return _mesh(case, own.mesh, surface.unit(own))
     if own.centre is None or own.radius is None or len(own.centre) != d:
         raise CaseError(f"tank: a {own.shape} needs centre_m with {d} components, and radius_m")
     centre = np.array(own.centre)
@@ -122,17 +123,17 @@ def refuse_outside(case, name: str, points, world=ALONE) -> None:
 
 
 @functools.lru_cache(maxsize=4)
-def _of_file(path: str, changed: float, scale: float, domain: tuple, spacing: float):
+def _of_file(path: str, changed: float, unit: surface.Unit, domain: tuple, spacing: float):
     """The mesh of a file as it is since `changed` [s], and where its walls are too thin for a spacing [m]."""
-    shape = shapes.Mesh(path, scale=scale)
+    shape = shapes.Mesh(path, unit=unit)
     surface.refuse_size("tank.mesh", path, shape.triangles.points, domain, spacing)
     return shape, shape.thin(spacing)
 
 
-def _mesh(case, path: str, scale: float):
+def _mesh(case, path: str, unit: surface.Unit):
     spacing = case.resolution.spacing
     changed = os.path.getmtime(path) if os.path.exists(path) else 0.0
-    shape, thin = _of_file(path, changed, scale, case.domain.size, spacing)
+    shape, thin = _of_file(path, changed, unit, case.domain.size, spacing)
     _refuse_thin("tank.mesh", thin, spacing)
     return shape
 

@@ -27,7 +27,7 @@ from sdph.engine.rows import entry
 from sdph.engine.walls.dummies import BESIDE, CONTACT, distance, normal_part, offset
 from sdph.laws import kernels
 from sdph.laws.compiled import inlined, parallel, serial
-from sdph.schema import choice, file, quantity, record
+from sdph.schema import choice, file, quantity, record, vector
 
 MODELS = ("dummy", "paper")
 
@@ -47,6 +47,7 @@ class Walls:
     source: str | None = choice("gas", "mesh", default=None)
     mesh: str = file()  # surface mesh that meshio reads, normals towards the grains
     mesh_scale: float = quantity("", 1.0, above=0.0)  # metres of a unit of `mesh`: 0.001 where it is in millimetres
+    mesh_offset: tuple | None = vector("m", None)  # by which it is moved, after that
 
 
 class WallsP(NamedTuple):

@@ -32,22 +32,22 @@ class Facets(NamedTuple):
         return Facets(*(own[chosen] for own in self))
 
 
-def read(path: str, dimensions: int, scale: float = 1.0) -> np.ndarray:
-    """Corners (F, d, d) [m] of the facets of a surface mesh that hold grains, whose unit is `scale` [m]."""
-    return walls(path, dimensions, scale).corners
+def read(path: str, dimensions: int, unit: surface.Unit = surface.METRES) -> np.ndarray:
+    """Corners (F, d, d) [m] of the facets of a surface mesh that hold grains, in their `unit`."""
+    return walls(path, dimensions, unit).corners
 
 
-def walls(path: str, dimensions: int, scale: float = 1.0) -> Facets:
-    """The facets of a surface mesh that hold grains; its unit is `scale` [m]."""
-    found = every(path, dimensions, scale)
+def walls(path: str, dimensions: int, unit: surface.Unit = surface.METRES) -> Facets:
+    """The facets of a surface mesh that hold grains; in its `unit`."""
+    found = every(path, dimensions, unit)
     return found.those(~found.open)
 
 
-def every(path: str, dimensions: int, scale: float = 1.0) -> Facets:
+def every(path: str, dimensions: int, unit: surface.Unit = surface.METRES) -> Facets:
     """All facets of a surface mesh, those without a size left out; cells may have values `slip`, `open` and `boundary`
     that are those of `Facets`."""
     places, cells = _cells(path, dimensions)
-    corners = scale * places[cells][:, :, :dimensions]
+    corners = unit.placed(places)[cells][:, :, :dimensions]
     slip, open_, owner = (
         _given(path, dimensions, name, otherwise) for name, otherwise in (("slip", 0), ("open", 0), ("boundary", -1))
     )
@@ -74,13 +74,13 @@ def save(path, found: Facets) -> None:
     )
 
 
-def drawn(path: str, dimensions: int, scale: float = 1.0):
-    """A surface mesh of walls as pyvista has it, of what holds grains; its unit is `scale` [m]."""
+def drawn(path: str, dimensions: int, unit: surface.Unit = surface.METRES):
+    """A surface mesh of walls as pyvista has it, of what holds grains; in its `unit`."""
     import pyvista
 
     places, facets = _cells(path, dimensions)
     facets = facets[_given(path, dimensions, "open", 0) == 0]
-    places, cells = scale * places, np.insert(facets, 0, facets.shape[1], axis=1).ravel()
+    places, cells = unit.placed(places), np.insert(facets, 0, facets.shape[1], axis=1).ravel()
     return pyvista.PolyData(places, lines=cells) if dimensions == 2 else pyvista.PolyData(places, faces=cells)
 
 

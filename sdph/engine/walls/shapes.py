@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from sdph.engine.lattice import grid
-from sdph.engine.surface import read
+from sdph.engine.surface import METRES, Unit, read
 from sdph.engine.walls import facets, nested, surface_points
 from sdph.engine.walls.facets import OPPOSITE
 from sdph.engine.walls.surface_points import arc, disc, line, rings
@@ -191,11 +191,11 @@ class Box:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Inside of a closed surface mesh of triangles that meshio reads, its unit `scale` [m], normals outwards."""
+    """Inside of a closed surface mesh of triangles that meshio reads, in its `unit`, normals outwards."""
 
     path: str
     key: str = "tank.mesh"  # of the case, for messages
-    scale: float = 1.0
+    unit: Unit = METRES
     # shells by depth and spacing: a run asks for them to fill the tank, and again for its walls
     shells: dict = field(default_factory=dict, init=False, compare=False, repr=False)
 
@@ -207,7 +207,7 @@ class Mesh:
         mesh = read(self.path, self.key)
         if "triangle" not in mesh.cells_dict:
             raise CaseError(f"{self.key} = {self.path!r} holds no triangles; a closed surface is made of them")
-        points, faces = self.scale * np.asarray(mesh.points, float), mesh.cells_dict["triangle"]
+        points, faces = self.unit.placed(mesh.points), mesh.cells_dict["triangle"]
         faces = faces[facets.sizes(points[faces]) > 0.0]
         surface = pyvista.PolyData(points, np.insert(faces, 0, 3, axis=1).ravel()).clean()
         if surface.n_open_edges:

@@ -12,6 +12,7 @@ import scipy
 from sdph.engine.geometry import SIDES
 from sdph.engine.neighbours import Neighbours
 from sdph.engine.rows import Rows
+from sdph.engine.surface import unit
 from sdph.engine.walls import corners as corners_of_mesh
 from sdph.engine.walls import facets, hidden, parts
 from sdph.engine.walls import mesh as sides
@@ -138,7 +139,7 @@ def dummies(case) -> Placed:
     own = case.parameters["walls"]
     found = [] if _vessel(own) else [_box(case)]
     if own.mesh:
-        corners, slip, _, owner = facets.walls(own.mesh, case.dimensions, own.mesh_scale)
+        corners, slip, _, owner = facets.walls(own.mesh, case.dimensions, unit(own))
         found = [_in_sight(box, corners) for box in found]
         whose = OWNED + owner if _vessel(own) else np.full(len(slip), 1)
         behind = [

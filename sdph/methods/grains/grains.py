@@ -9,7 +9,7 @@ from sdph.effects.around import by_nozzle
 from sdph.effects.around.outflow import leaving, refuse_to_leave
 from sdph.effects.around.source import Source
 from sdph.effects.gas import micro_explosion
-from sdph.engine import arrays, ashore, world
+from sdph.engine import arrays, ashore, surface, world
 from sdph.engine import state as particles
 from sdph.engine.clock import Clock
 from sdph.engine.kept import Unfit
@@ -233,7 +233,7 @@ class Grains:
     def walls(self):
         """Meshes of walls as a pyvista surface; None where there are none: sides of the domain are seen anyway."""
         own = self.case.parameters["walls"] if self.parameters["walls"] else None
-        return facets.drawn(own.mesh, self.case.dimensions, own.mesh_scale) if own and own.mesh else None
+        return facets.drawn(own.mesh, self.case.dimensions, surface.unit(own)) if own and own.mesh else None
 
     def summary(self) -> dict[str, float]:
         """Its part of summary.json."""

@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 
 from sdph.engine import regions
 from sdph.engine.state import OF_MATERIAL, Grains, State, axes, born, empty, join
+from sdph.engine.surface import unit
 from sdph.engine.walls import facets
 from sdph.engine.walls.sides import LAYERS
 from sdph.engine.world import ALONE
@@ -149,7 +150,7 @@ def _off(case, masses) -> list[str]:
 def mesh_of_walls(case) -> np.ndarray | None:
     """Facets (F, d, d) [m] of the mesh of the walls; None where there is none."""
     own = case.parameters["walls"] if "walls" in case.effects else None
-    return facets.read(own.mesh, case.dimensions, own.mesh_scale) if own and own.mesh else None
+    return facets.read(own.mesh, case.dimensions, unit(own)) if own and own.mesh else None
 
 
 def assumed(case):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 
+from sdph.engine.surface import unit
 from sdph.engine.walls import facets, nested
 from sdph.schema import CaseError
 
@@ -17,7 +18,7 @@ def checked(case) -> list[str]:
     own = case.parameters["walls"] if "walls" in case.effects else None
     if own is None or not own.mesh or own.source == "gas":
         return []
-    key, corners = f"walls.mesh = {own.mesh!r}", facets.read(own.mesh, case.dimensions, own.mesh_scale)
+    key, corners = f"walls.mesh = {own.mesh!r}", facets.read(own.mesh, case.dimensions, unit(own))
     nested.refuse_mixed(corners, key)
     rims = facets.Surface(corners).rims()
     filling, parts = [name for name, region in case.particles.items() if region.shape == "walls"], facets.parts(corners)
