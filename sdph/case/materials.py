@@ -20,6 +20,7 @@ STRANGE = {
     "turbulent_dispersion": "grains fall through its eddies at one speed",
 }  # fmt: skip
 METRICS = ("column", "jet", "bursts")  # that compare with formulas of one material
+INSTEAD = {"column": "; a pressure drop is the difference of two rows of gas_pressure_Pa of a [profiles.NAME] along it"}
 
 
 def named(table: dict) -> dict[str, dict]:
@@ -94,6 +95,7 @@ def check(case) -> None:
         if name in case.run.metrics:
             raise CaseError(
                 f"run.metrics holds {name}, which compares with formulas of one, and {several}: leave it out"
+                f"{INSTEAD.get(name, '')}"
             )
     for name, nozzle in case.nozzles.items():
         if nozzle.shape == "table":
