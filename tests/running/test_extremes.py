@@ -18,6 +18,19 @@ def test_rows_are_looked_through_by_name():
     assert own.summary() == {"highest_wall_pressure_Pa": 2.0, "lowest_wall_pressure_Pa": -3.0}
 
 
+def test_what_is_before_the_means_begin_counts_for_nothing():
+    case = tank_case(
+        probes={"wall": {"at_m": [0.0, 0.05]}}, run={"end_time_s": 1.0, "output_interval_s": 1.0, "average_from_s": 0.3}
+    )
+    own = Extremes(case)
+    for time, value in ((0.0, 9.0), (0.2, -9.0), (0.1 + 0.2, 3.0), (0.9, 1.0)):
+        own.hear({"time_s": time, "wall_pressure_Pa": value})
+    assert own.summary() == {"highest_wall_pressure_Pa": 3.0, "lowest_wall_pressure_Pa": 1.0}
+    own = Extremes(case)
+    own.hear({"time_s": 0.3 * (1.0 - 1e-15), "wall_pressure_Pa": 5.0})  # the same time, but for round-off
+    assert own.summary()["highest_wall_pressure_Pa"] == 5.0
+
+
 def test_a_run_tells_its_peaks_also_when_it_went_on(tmp_path):
     """Water falls by 3 cm on a floor: the highest pressure is in the history, in one run and in two parts."""
     pool = {"water": {"shape": "box", "lower_m": [0.0, 0.02], "upper_m": [0.2, 0.12]}}
