@@ -53,14 +53,14 @@ def priced(case, template: Path):
     return prices.by_openfoam(len(mesh.volumes))._replace(**own)
 
 
-def _edges(case, mesh) -> tuple[float, float]:
-    """Shortest and longest edge [m] of the cells that hold grains at the start; where none do, medians of all: nobody
-    knows where grains will come to, and cells far off may be large."""
+def _edges(case, mesh) -> tuple[float, float, np.ndarray]:
+    """Shortest and longest edge [m] of the cells that hold grains at the start, and the shortest of each (C,); where
+    none do, medians of all: nobody knows where grains will come to, and cells far off may be large."""
     own = cell_sizes.edges(mesh, case.dimensions)
     held = _held(case, own.middles)
     if not held.any():
-        return float(np.median(own.shortest)), float(np.median(own.longest))
-    return float(own.shortest[held].min()), float(own.longest[held].max())
+        return float(np.median(own.shortest)), float(np.median(own.longest)), own.shortest
+    return float(own.shortest[held].min()), float(own.longest[held].max()), own.shortest[held]
 
 
 def _held(case, middles: np.ndarray) -> np.ndarray:

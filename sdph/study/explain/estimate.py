@@ -52,6 +52,7 @@ NO_GRAINS = (
     "unless that is meant"
 )
 LOOSE = "coupling.window_tolerance = {given:g}: all heat that there is to exchange may be wrong; give a small share"
+GRAINS = 3.0  # diameters of a grain that a cell is wide, at least
 GRAINS_WHY = (
     "drag and heat laws are means over many grains; in smaller cells a grain meets gas that it has slowed or "
     "cooled itself, and both come out too small"
@@ -75,13 +76,13 @@ def ratios(case, edges=None) -> list[dict]:
     if case.grains is None:
         return []
     h, spacing, cell = case.smoothing_length, case.resolution.spacing, case.resolution.cell
-    narrow, wide = edges or (cell, cell)
+    narrow, wide, *each = edges or (cell, cell)
     own = (sizes.own_diameter(case, nozzle) for nozzle in case.nozzles.values())
     d = max([grains.sauter_diameter for grains in case.kinds] + [diameter for diameter in own if diameter])
     extent = scales_of(case).length
     rows = [
         ("cell / h", wide / h, 0.25, 4.0, CELLS_WHY),
-        ("cell / grain", narrow / d, 3.0, math.inf, GRAINS_WHY),
+        ("cell / grain", narrow / d, GRAINS, math.inf, _share_below(GRAINS * d, *each) + GRAINS_WHY),
         ("h / spacing", h / spacing, 1.2, 2.0, "fewer neighbours make noise, more blur"),
         ("spacing / grain", spacing / d, 1.0, math.inf, "an SPH particle stands for one grain or more"),
         ("grains' width / h", extent / h, pace.ACROSS, math.inf, "less than three kernels across is all rim"),
@@ -102,6 +103,12 @@ def ratios(case, edges=None) -> list[dict]:
         {"ratio": n, "value": v, "least": low, "most": high, "safe": "yes" if low <= v <= high else "NO", "why": w}
         for n, v, low, high, w in rows
     ]
+
+
+def _share_below(width: float, shortest=()) -> str:
+    """Words on the share of cells whose shortest edge [m] is below a width [m]; empty where none is known to be."""
+    share = np.mean(np.less(shortest, width)) if len(shortest) else 0.0
+    return f"that is the smallest cell, {100.0 * share:.2g} % of cells are below; " if share else ""
 
 
 def pushed_aside(case) -> float:
@@ -144,7 +151,7 @@ def _other_cells(case, edges) -> list[str]:
     cell = case.resolution.cell
     if not edges or edges[0] / OTHER <= cell <= edges[1] * OTHER:
         return []
-    narrow, wide = (f"{1e3 * edge:.3g}" for edge in edges)
+    narrow, wide = (f"{1e3 * edge:.3g}" for edge in edges[:2])
     sizes = narrow if narrow == wide else f"{narrow} to {wide}"
     return [
         f"resolution.cell_mm = {1e3 * cell:g}, and the cells of the mesh of the gas are {sizes} mm: windows are "

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from typing import NamedTuple
 
+import numpy as np
+
 from sdph.engine import device as environment
 
 MEASURED = environment.CACHE / "speed.json"  # of this machine, by `sdph explain --measure`
@@ -16,14 +18,14 @@ IN_SPACE = 2.5
 
 class Priced(NamedTuple):
     """A gas solver, its cells, its time for each window and for each cell of it [us], and, of a mesh that the case
-    brings, shortest and longest edge [m] of the cells where grains stand, how often in a second [1/s] gas crosses one
-    there, at most, and the largest speed [m/s] of gas that flows through it alone."""
+    brings, shortest and longest edge [m] of the cells where grains stand and the shortest of each (C,), how often in a
+    second [1/s] gas crosses one there, at most, and the largest speed [m/s] of gas that flows through it alone."""
 
     name: str
     cells: int
     window: float
     cell: float
-    edges: tuple[float, float] | None = None
+    edges: tuple[float, float, np.ndarray] | None = None
     crossed: float = 0.0
     fastest: float = 0.0
 

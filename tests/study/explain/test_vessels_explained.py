@@ -102,7 +102,7 @@ def test_cells_of_an_own_mesh_are_judged_where_grains_stand():
     )
     case = cases.from_table(table)
     edges = rehearsal._edges(case, mesh)
-    assert edges == pytest.approx((0.01, 0.02))
+    assert edges[:2] == pytest.approx((0.01, 0.02)) and edges[2] == pytest.approx([0.01] * 3)
     told = {own["ratio"]: own["value"] for own in estimate.ratios(case, edges)}
     assert told["cell / h"] == pytest.approx(0.02 / case.smoothing_length)
     assert told["cell / grain"] == pytest.approx(0.01 / case.grains.sauter_diameter)
@@ -112,9 +112,22 @@ def test_cells_of_an_own_mesh_are_judged_where_grains_stand():
     assert [line for line in tables.warnings(far, None, priced) if line.startswith("cell / h = 6.67")]
 
 
+def test_one_sliver_among_many_cells_is_told_as_such():
+    """Of 250 cells one is smaller than three grains: it is judged, and how many there are is said."""
+    case = cases.from_table(cases.parsed(BED))
+    d = case.grains.sauter_diameter
+    each = np.full(250, 4.0 * d)
+    each[7] = 0.194 * d
+    (row_,) = (own for own in estimate.ratios(case, (0.194 * d, 4.0 * d, each)) if own["ratio"] == "cell / grain")
+    assert row_["safe"] == "NO" and row_["why"].startswith("that is the smallest cell, 0.4 % of cells are below; drag")
+    each[7] = 3.5 * d
+    (row_,) = (own for own in estimate.ratios(case, (3.5 * d, 4.0 * d, each)) if own["ratio"] == "cell / grain")
+    assert row_["safe"] == "yes" and row_["why"] == estimate.GRAINS_WHY
+
+
 def test_where_no_grains_stand_the_cells_in_the_middle_are_judged():
     case = cases.from_table(cases.parsed(BED) | {"particles": {}})
-    assert rehearsal._edges(case, row([0.01, 0.02, 0.01, 0.09, 0.008])) == pytest.approx((0.01, 0.01))
+    assert rehearsal._edges(case, row([0.01, 0.02, 0.01, 0.09, 0.008]))[:2] == pytest.approx((0.01, 0.01))
 
 
 def explained(capsys, *words):
