@@ -15,7 +15,7 @@ from pathlib import Path
 import tomli_w
 
 from sdph import effects, scenes
-from sdph.case import fluids, judge, materials, moving
+from sdph.case import elsewhere, fluids, judge, materials, moving
 from sdph.case.check import check
 from sdph.case.sections import GROUPS, SECTIONS, Case, Coupling, Vapour
 from sdph.methods.liquids.sections import GasPhase, Liquid
@@ -146,6 +146,7 @@ def from_table(table: dict) -> Case:
     for key in table:
         if key not in known:
             raise CaseError(unknown(key, known))
+    elsewhere.refuse(table, SECTIONS)
     table = fluids.filled(_decided(moving.taken_over(table)))
     spared = {"gas", "grains"} if table.keys() & {"liquid", "solid"} else set()
     given = {name: cls for name, cls in SECTIONS.items() if name not in spared - table.keys()}

@@ -97,6 +97,9 @@ def test_optional_sections_read_back():
         ("coupling.one_wey=true", "did you mean coupling.one_way?"),
         ("coupling.ranks=2", "did you mean coupling.gas_ranks?"),  # its name up to 0.1.0
         ("heat.closur='paper'", "did you mean heat.closure?"),
+        ("grains.friction=0.5", "did you mean [friction] or grain_drag.friction or walls.friction?"),
+        ("gas.wall_friction=0.5", "did you mean [friction]? known here: conductivity_W_m_K"),
+        ("heat.mesh_scale=0.1", "did you mean walls.mesh_scale or tank.mesh_scale?"),
         ("granis.density_kg_m3=1", "did you mean grains?"),
     ],
 )
