@@ -158,4 +158,5 @@ class Liquid(Stepped):
         compressed = f"{reached} and were compressed by about {100.0 * mach**2:.0f} %"
         wanted = f"raise liquid.sound_speed_m_s from {c:g} to {10.0 * mach * c:.3g}"
         found = [f"{compressed}: {wanted}"] if mach > SLOW else []
+        found += self.outlet.warnings() if self.outlet else []
         return found + (self.stepper.openings.warnings() if self.stepper.openings else [])

@@ -15,6 +15,9 @@ from sdph.engine.state import WALL
 from sdph.methods.liquids.totals import specific_energies
 
 CRUMB = 1e-12  # of a particle's mass: less than that is nothing
+# spacings above its outlet's end, from which on what a drain takes shows that nothing stood lower, and the share of all
+# that it took from which on that is told; the lowest row stands half a spacing over the end. Our choice
+ABOVE, TOLD = 3.0, 0.02
 
 
 class Lowest(NamedTuple):
@@ -50,6 +53,7 @@ class Outlet:
         # particles on their way out: number; way to go [m], time [s], mass [kg] when chosen
         self.leaving = np.zeros((0, 4))
         self.pushed = np.zeros(3)  # force [N] on what was taken, which the next kick does not give
+        self.above, self.first = 0.0, math.nan  # mass [kg] that stood far above the end; time of the first of it [s]
 
     def admit_at(self, time: float, kept: dict, stepper: dict) -> None:
         """Unfit where more has gone at `time` [s] than there was and came in, or who leaves is not among the pieces of
@@ -115,6 +119,20 @@ class Outlet:
     def _count(self, lowest: Lowest, taken: float) -> None:
         self.place, moment = lowest.place, np.cross(lowest.place, lowest.velocity)
         self.gone += taken * np.concatenate(([1.0], lowest.velocity, moment, [lowest.energy]))
+        if lowest.height > self.end + ABOVE * self.stepper.case.resolution.spacing:
+            self.first = self.stepper.time if not self.above else self.first
+            self.above += taken
+
+    def warnings(self) -> list[str]:
+        """A line where the drain takes liquid from above an outlet that has run empty, since the run began or went
+        on."""
+        if self.above <= TOLD * self.gone[0]:
+            return []
+        return [
+            f"from {self.first:.4g} s on the drain took liquid that stood more than {ABOVE:g} spacings above the end "
+            f"of its outlet, {self.above / self.gone[0]:.2g} of all that it took: the outlet had run empty, as liquid "
+            "does not come there as fast as it is commanded; let drain.end_s be later, or the outlet wider"
+        ]
 
     def _rows(self, idents) -> np.ndarray:
         """Rows of particles, or of their copies; none in processes that have neither."""
