@@ -98,11 +98,11 @@ def command(own: Drain, first: float):
     return fill
 
 
-def speed(case) -> float:
-    """Mean speed [m/s] at which the commanded liquid goes through the outlet pipe; 0 without a pipe."""
-    own, around = case.parameters["drain"], case.parameters["tank"]
-    radius = around.outlet_radius
-    area = math.pi * radius**2 if case.dimensions == 3 else 2.0 * radius
+def speed(case, drawn: float = 0.0) -> float:
+    """Mean speed [m/s] at which the commanded liquid goes through the outlet pipe, or one that is `drawn` in the tank
+    itself, of so large a section [m^(d-1)]; 0 without a pipe."""
+    own, radius = case.parameters["drain"], case.parameters["tank"].outlet_radius
+    area = (math.pi * radius**2 if case.dimensions == 3 else 2.0 * radius) or drawn
     drained = (filled(case) - own.fill) * tank.shape_of(case).volume
     return drained / (own.end - own.start) / area if area else 0.0
 

@@ -29,6 +29,8 @@ PIPES = {  # shape of a tank, in two dimensions or three -> how it gets an outle
     ("sphere", 2): 'a disc has none: give tank.shape = "outline" and draw disc and pipe by tank.corners_m',
     ("box", 2): KEYS_OF_PIPE,
 }
+OUTLET = "tank.outlet_radius_m"
+OUTLETS = {"mesh": "the pipe in tank.mesh", "outline": "the notch in tank.corners_m"}  # of pipes drawn in the tank
 PIPE = f"{KEYS_OF_PIPE}, or a tank.mesh with a pipe at its lowest point, closed at the end"
 DAMPED = "what damps waves is the program's artificial viscosity, and not the liquid's"
 
@@ -108,7 +110,6 @@ def pulled(s) -> float:
 
 def warnings(s) -> list[str]:
     """Ratios that are not safe, and sound that is too slow."""
-    c = s.liquid.sound_speed
     unsafe = [*edges.unsafe(ratios(s)), *_too_fast(s), *ruling.warnings(s.case, s.end, limits(s))]
     layer, around = s.layer * s.length, s.case.parameters.get("tank")
     if around and around.shape == "box" and around.outlet_radius and s.pull[0] + s.shaken and _pipe_empty(s):
@@ -122,25 +123,33 @@ def warnings(s) -> list[str]:
             "friction at walls, and how soon the liquid turns with its tank, are then the numerics', tens of times too "
             "much; tank.slip = 'free_slip' has no friction at walls"
         )
-    if "drain" in s.case.effects and (through := drain.speed(s.case)) > SLOW * c:
-        unsafe.append(
+    unsafe += _of_drain(s) if "drain" in s.case.effects else []
+    return unsafe + tanks.warnings(s.case)
+
+
+def _of_drain(s) -> list[str]:
+    """Lines where a drain takes its liquid faster than its pipe brings it, or without one."""
+    told, c, around = [], s.liquid.sound_speed, s.case.parameters["tank"]
+    drawn = 0.0 if around.outlet_radius else _pipe_drawn(s.case, around)
+    through, falls = drain.speed(s.case, drawn), _falls(s)
+    wider = f"let drain.end_s be later, or the outlet wider ({OUTLETS.get(around.shape) if drawn else OUTLET})"
+    if through > SLOW * c:
+        told.append(
             f"the drain takes its liquid through the outlet at {through:.3g} m/s, {through / c:.2g} of the speed of "
-            "sound: it is torn out rather than drained; let drain.end_s be later, or the outlet wider "
-            "(tank.outlet_radius_m)"
+            f"sound: it is torn out rather than drained; {wider}"
         )
-    if "drain" in s.case.effects and drain.speed(s.case) > (falls := _falls(s)) > 0.0:
-        unsafe.append(
-            f"the drain takes its liquid through the outlet at {drain.speed(s.case):.3g} m/s; by its weight it leaves "
-            f"at {falls:.3g} m/s at most in the end (Torricelli). It is pulled out by command, the pipe runs dry, and "
-            "pressures at the outlet are not those of a drain; let drain.end_s be later, or the outlet wider "
-            "(tank.outlet_radius_m)"
+    if through > falls > 0.0:
+        told.append(
+            f"the drain takes its liquid through the outlet at {through:.3g} m/s; by its weight it leaves at "
+            f"{falls:.3g} m/s at most in the end (Torricelli). It is pulled out by command, the pipe runs dry, and "
+            f"pressures at the outlet are not those of a drain; {wider}"
         )
-    if "drain" in s.case.effects and not around.outlet_radius and not _ends_in_pipe(s.case, around):
-        unsafe.append(
+    if not (drawn or around.outlet_radius):
+        told.append(
             "a tank without an outlet pipe gives up its lowest particles, wherever on its floor they are: pressures "
             f"and loads meanwhile are not those of a drain; {PIPES.get((around.shape, s.case.dimensions), PIPE)}"
         )
-    return unsafe + tanks.warnings(s.case)
+    return told
 
 
 def _too_fast(s) -> list[str]:
@@ -158,26 +167,27 @@ def step_of_sound(case, speed: float) -> float:
     return case.liquid.courant * case.smoothing_length / (11.0 * speed)
 
 
-def _ends_in_pipe(case, around) -> bool:
-    """True of an outline or a mesh that is level at its lowest, over less than half of its mean width or area (our
-    choice)."""
+def _pipe_drawn(case, around) -> float:
+    """Width or area [m^(d-1)] of the pipe of an outline or a mesh, where it is level at its lowest, over less than half
+    of its mean width or area (our choice); 0 where it has none."""
     if around.shape == "mesh":
-        return _mesh_ends_in_pipe(case)
+        return _pipe_of_mesh(case)
     if around.shape != "outline":
-        return False
+        return 0.0
     corners = np.array(around.corners)
     lowest = corners[corners[:, 1] <= corners[:, 1].min() + SAME * case.resolution.spacing]
-    return 0.0 < np.ptp(lowest[:, 0]) < 0.5 * tank.shape_of(case).volume / np.ptp(corners[:, 1])
+    width = float(np.ptp(lowest[:, 0]))
+    return width if width < 0.5 * tank.shape_of(case).volume / np.ptp(corners[:, 1]) else 0.0
 
 
-def _mesh_ends_in_pipe(case) -> bool:
+def _pipe_of_mesh(case) -> float:
     """The same of a mesh; a facet of a round floor, smaller than a particle, is none."""
     shape, up = tank.shape_of(case), filling.upwards(case)
     facets = np.asarray(shape.triangles.points, float)[shape.triangles.regular_faces]
     heights, spacing = facets @ up, case.resolution.spacing
     level = facets[heights.max(axis=1) <= heights.min() + SAME * spacing]
     area = 0.5 * np.linalg.norm(np.cross(level[:, 1] - level[:, 0], level[:, 2] - level[:, 0]), axis=1).sum()
-    return spacing**2 <= area < 0.5 * shape.volume / np.ptp(heights)
+    return float(area) if spacing**2 <= area < 0.5 * shape.volume / np.ptp(heights) else 0.0
 
 
 def _over_floor(s):
