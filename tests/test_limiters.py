@@ -61,6 +61,7 @@ HARMLESS = {
     "sdph/engine/walls/*": "geometry: distances, counts of points",
     "sdph/engine/polyline.py:*": "geometry: the nearest place of a segment",
     "sdph/engine/lattice.py:*": "counts of points",
+    "sdph/methods/grains/expansion.py:*": "the farthest region of all, and how many times by the larger of two",
     "sdph/methods/grains/start.py:_look_for_overlap": "a count of points",
     "sdph/methods/grains/start.py:extents": "geometry: the level of a region or its end, for estimates",
     "sdph/engine/regions.py:*": "counts of points, extents",

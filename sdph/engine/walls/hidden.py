@@ -1,4 +1,4 @@
-"""What a surface hides of the walls around it, so that a wall that lies in another, or touches it, is there once."""
+"""Walls behind a surface: where one lies in another, or touches it, it is there once."""
 
 from __future__ import annotations
 

@@ -193,7 +193,7 @@ def _box(case) -> Placed:
 
 
 def _in_sight(box: Placed, corners: np.ndarray) -> Placed:
-    """Those of the sides that do not stand behind the facets of a mesh, where its own do."""
+    """Dummies of the sides that do not stand behind the facets of a mesh, where its own do."""
     seen = ~hidden.behind(corners, box.table[:, : corners.shape[2]])
     return Placed(*(own[seen] for own in box))
 

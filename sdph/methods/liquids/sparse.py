@@ -19,7 +19,7 @@ from sdph.laws.matrices import SINGULAR, determinant
 from sdph.methods.liquids import phases, wetting
 from sdph.methods.liquids.interface import on_interface
 
-ROUND_OFF = 1e-9  # of the factor of `wetting.beyond`, which on a lattice is FURTHEST itself
+UNHELD = 1e-9  # round-off of the factor of `wetting.beyond`, which on a lattice is FURTHEST itself
 
 
 @fast_parallel
@@ -108,7 +108,7 @@ def led_on(s, rows, box, active, support, volume, normal, line):
             if near and on_interface(normal, i) and on_interface(normal, j):
                 change = wetting.beyond(line, i, dx, dy, dz) - wetting.behind(line, i, dx, dy, dz)
                 pairs += 1.0
-                bounded += 1.0 if abs(change) > ROUND_OFF else 0.0
+                bounded += 1.0 if abs(change) > UNHELD else 0.0
     return pairs, bounded
 
 
