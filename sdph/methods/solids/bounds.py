@@ -39,6 +39,16 @@ class SolidGuard(Watch):
         if stepper.cavity:
             self._look_for_tears(stepper)
 
+    def refuse_inverted(self, stepper, inverted) -> None:
+        """Unstable where particles, by a mask (N,), are turned inside out, as no strain is told there."""
+        if not inverted.any():
+            return
+        i = int(inverted.argmax())
+        which, place = f"bodies.{list(self.case.bodies)[stepper.body[i]]}", particles.positions(stepper.state)[i]
+        ratio = float(np.linalg.det(stepper.gradient[i].reshape(3, 3)))
+        remedy = "it is turned inside out: lower run.step_factor or the load, or let it fail (solid.failure)"
+        self.stop("volume over the undeformed one", which, place, ratio, (0.0, np.inf, "-"), remedy)
+
     def _look_for_tears(self, stepper) -> None:
         """Unstable where a ring that is inflated has torn: what fills it would have run out."""
         name = self.case.parameters["inflation"].body

@@ -184,7 +184,8 @@ def load(material, plastic, damage, ref, dt, gradient, unloaded, strained, harde
 
     unloaded (N, 6) is C_p^-1; strained p, hardened r, harm D (N,) [-]; amounts (N, 3): elastic energy, energy that
     plastic flow took in this step, dp times the mean of the equivalent stresses before and after it, as kicks take the
-    work, both of the undeformed volume [J/m3]; the least stretch.
+    work, both of the undeformed volume [J/m3]; the least stretch, 0 of what is turned inside out, which has no stress
+    and keeps its energy.
     """
     for i in prange(len(gradient)):
         if ref.free[i]:
@@ -193,6 +194,9 @@ def load(material, plastic, damage, ref, dt, gradient, unloaded, strained, harde
             continue
         F, c = gradient[i], unloaded[i]
         jacobian, back = inverse(F)
+        if jacobian <= 0.0:
+            amounts[i, 1], amounts[i, 2] = 0.0, 0.0
+            continue
         values = principal(*carried(F, c))
         axes = values[3:]
         a, b, c = 0.5 * math.log(values[0]), 0.5 * math.log(values[1]), 0.5 * math.log(values[2])

@@ -101,4 +101,5 @@ def summary(stepper) -> dict[str, float]:
         "plastic_strain_largest": float(stepper.strained.max()),
         "damage_largest": float(stepper.harm.max()),
         "free_particles": int(stepper.free.sum()),
+        "inverted_particles": stepper.inverted,
     }

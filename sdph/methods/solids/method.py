@@ -30,7 +30,7 @@ class SolidStepper:
         "state", "time", "steps", "limit", "works", "impulses", "acting", "springs", "touching", "cavity", "free",
         "broken",
         "unloaded", "strained", "hardened", "harm", "gradient", "stress", "kirchhoff", "amounts", "acceleration",
-        "steadying", "friction", "pressed",
+        "steadying", "friction", "pressed", "inverted",
     )  # fmt: skip
 
     # what the loops of a step take from neighbours, fresh, beside the undeformed bodies, which stay as they are
@@ -61,7 +61,7 @@ class SolidStepper:
         self.time, self.steps, self.limit = 0.0, 0, ""
         self.works, self.impulses = np.zeros(len(WORKS)), np.zeros((len(IMPULSES), 3))
         self.acting = np.zeros((len(IMPULSES), 3))  # forces [N] of now, by the names of IMPULSES
-        self.springs = 0.0  # energy [J] of contact
+        self.springs, self.inverted = 0.0, 0  # energy [J] of contact; particles that failed turned inside out
         self._allocate(len(self.state.x))
         self.load = np.zeros_like(self.pressed) if wet else None  # forces (N, 3) [N] of the liquid
         self.forces(1.0)  # nothing flows at rest: the length of a step decides nothing
@@ -165,7 +165,7 @@ class SolidStepper:
         self._deform()
         self._load(self.plastic, self.damage, dt)
         self.works[WORKS.index("plastic")] += self.weights.volume @ self.amounts[:, 1]
-        if self.damage and (broken := (self.harm >= self.damage.critical) & (self.free == 0)).any():
+        while (broken := self._failed()).any():
             self._break(broken)
         s = self.state
         equations.push(
@@ -195,6 +195,15 @@ class SolidStepper:
             self.material, plastic, damage, self.ref, dt, self.gradient, self.unloaded, self.strained,
             self.hardened, self.harm, self.stress, self.kirchhoff, self.amounts,
         )  # fmt: skip
+
+    def _failed(self) -> np.ndarray:
+        """Mask (N,) of particles that fail now: by damage, or turned inside out, where there is no strain to go by."""
+        inverted = self.amounts[:, 2] <= 0.0
+        if not self.damage:
+            self.guard.refuse_inverted(self, inverted)
+            return inverted
+        self.inverted += int(inverted.sum())
+        return (self.harm >= self.damage.critical) & (self.free == 0) | inverted
 
     def _break(self, broken) -> None:
         """Cut what has failed; the energy that it had is told. Without its links the neighbours tell another

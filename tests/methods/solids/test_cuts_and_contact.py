@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from blocks import stepper
+from blocks import moved, stepper
 
 from sdph.engine import kept
 from sdph.engine import state as particles
+from sdph.engine.guard import Unstable
 from sdph.methods.solids import history
 from sdph.methods.solids.method import IMPULSES, WORKS, limits
 from sdph.methods.solids.totals import SolidLedger, energy, totals
@@ -64,6 +65,30 @@ def test_a_particle_with_too_few_links_is_freed():
     own.weights.cut((r > 0.0) & (r < 0.026))
     assert own.weights.free[corner]
     assert not own.weights.free[int(np.argmax(own.state.x + own.state.y))]
+
+
+def turned(own) -> None:
+    """Turn the block inside out: a mirror image of itself."""
+    moved(own, own.reference * np.array([-1.0, 1.0, 1.0]) + np.array([1.0, 0.0, 0.0]))
+
+
+def test_what_is_turned_inside_out_fails_with_the_energy_that_it_had():
+    """Flow in it gave no number: energies and checkpoints were nan from then on."""
+    own = stepper(solid=BRITTLE)
+    moved(own, own.reference * np.array([1.001, 1.0, 1.0]))
+    before = own.elastic_energy
+    turned(own)
+    assert own.free.all() and own.inverted == len(own.free) == history.summary(own)["inverted_particles"]
+    assert before > 0.0 and own.elastic_energy == 0.0
+    assert own.works[WORKS.index("cut")] == pytest.approx(before, rel=1e-12)
+    assert np.isfinite(own.amounts).all() and not own.stress.any()
+
+
+def test_what_cannot_fail_stops_the_run_when_it_is_turned_inside_out():
+    with pytest.raises(
+        Unstable, match=r"bodies\.block .* is -1 -, .* turned inside out: lower run\.step_factor"
+    ):
+        turned(stepper())
 
 
 def test_in_space_an_edge_that_loses_a_neighbour_bears_on():
