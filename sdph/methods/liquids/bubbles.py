@@ -80,6 +80,7 @@ class Bubbles:
         values, areas = ([getattr(part, each) for part in held] for each in (name, "area"))
         return float(np.average(values, weights=areas if self.left else None))
 
+    radius = property(lambda self: math.sqrt(self.area / math.pi))  # [m] of a round void as large as all
     mass = property(lambda self: self._sum("mass"))
     heat = property(lambda self: self._sum("heat"))
     warmed = property(lambda self: self._sum("warmed"))
