@@ -85,9 +85,7 @@ def test_what_is_turned_inside_out_fails_with_the_energy_that_it_had():
 
 
 def test_what_cannot_fail_stops_the_run_when_it_is_turned_inside_out():
-    with pytest.raises(
-        Unstable, match=r"bodies\.block .* is -1 -, .* turned inside out: lower run\.step_factor"
-    ):
+    with pytest.raises(Unstable, match=r"bodies\.block .* is -1 -, .* turned inside out: lower run\.step_factor"):
         turned(stepper())
 
 
