@@ -61,9 +61,7 @@ def of_scene(name: str) -> str:
     own = records().get(name)
     if own is None:
         return f"No record yet: `sdph validate {name} --record validation/record` makes one."
-    return f"{_told(own)}\n\n{_limiters(own)}" + "".join(
-        f"\n\nNot recorded: {lacking}." for lacking in [_listed(name, own)] if lacking
-    )
+    return _told(own) + "".join(f"\n\nNot recorded: {lacking}." for lacking in [_listed(name, own)] if lacking)
 
 
 def lacking(name: str, own: dict) -> list[str]:
@@ -152,17 +150,6 @@ def _told(own: dict) -> str:
     made += "".join(f" {name}: {of['date']}, {of['commit'] or '?'}." for name, of in own.get("parts", {}).items())
     short = [check | {"name": check["name"].removeprefix(f"{own['scene']}, ")} for check in own["checks"]]
     return f"{made}\n\n{_table(short)}"
-
-
-def _limiters(own: dict) -> str:
-    """Limiters that acted in the runs of a record, the largest share or size of each."""
-    if "limiters" not in own:
-        return "Which limiters acted is not on record."
-    runs = [
-        f"{name}: " + (", ".join(f"`{column}` {value:.2g}" for column, value in acted.items()) or "none")
-        for name, acted in own["limiters"].items()
-    ]
-    return f"[Limiters](../limiters.md) that acted, the largest of the run: {'; '.join(runs)}." if runs else ""
 
 
 def _table(checks: Iterable[dict]) -> str:

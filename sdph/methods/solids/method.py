@@ -202,12 +202,12 @@ class SolidStepper:
         if not self.damage:
             self.guard.refuse_inverted(self, inverted)
             return inverted
-        self.inverted += int(inverted.sum())
         return (self.harm >= self.damage.critical) & (self.free == 0) | inverted
 
     def _break(self, broken) -> None:
         """Cut what has failed; the energy that it had is told. Without its links the neighbours tell another
         deformation: theirs begins anew at the stress that they bear, and nothing flows by a cut."""
+        self.inverted += int((self.amounts[:, 2] <= 0.0).sum())
         before, bound, last = self.elastic_energy, self.free.copy(), self.gradient.copy()
         self.weights.cut(broken)
         self.touching.break_off(self.state, bound, self.free)
