@@ -41,7 +41,7 @@ def checks(folder: Path | None = None, _=(), reporter=None) -> list[dict]:
 
 
 def _checks(corners: np.ndarray) -> list[dict]:
-    points, _, _ = facets.spread(corners, SPACING)
+    points, *_ = facets.spread(corners, SPACING)
     whole = facets.sizes(corners).sum() / SPACING**2
     nearest = cKDTree(points).query(points, k=2)[0][:, 1].min() / SPACING
     return [

@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from sdph.engine.walls import facets
-from sdph.engine.walls.surface_points import SAMPLES, middles, passes
+from sdph.engine.walls.surface_points import SAMPLES, middles
 
 # rad of turn from which on facets meet at an edge, and below go on as a round wall; a little beyond the 45 degrees of
 # octagons and chamfers, whose edges are then all alike; our choice
@@ -57,8 +57,8 @@ def spread(corners: np.ndarray, spacing: float, reach: float) -> Beyond:
     spacing^d."""
     found = _samples(corners, spacing, reach, True)
     found = found.those(_alone(found, facets.Surface(corners)))
-    middle, nearest = middles(found.place)
-    return Beyond(middle, found.foot[nearest], found.facets[nearest], np.ones(len(middle)))
+    middle, nearest, share = middles(found.place)
+    return Beyond(middle, found.foot[nearest], found.facets[nearest], share)
 
 
 def rounded(corners: np.ndarray, spacing: float, reach: float) -> Beyond:
@@ -226,6 +226,5 @@ def _drawn(volumes, dimensions: int) -> tuple[np.ndarray, np.ndarray]:
     ends = np.cumsum(volumes)
     count = round(SAMPLES * ends[-1]) if len(ends) else 0
     of = np.searchsorted(ends, (np.arange(count) + 0.5) * (ends[-1] / count), side="right") if count else []
-    order = passes(count)
-    even = scipy.stats.qmc.Halton(dimensions, scramble=False).random(order.max(initial=-1) + 2)[order + 1]  # 0 is first
+    even = scipy.stats.qmc.Halton(dimensions, scramble=False).random(count + 1)[1:]  # 0 is first
     return np.minimum(np.array(of, int), max(len(ends) - 1, 0)), even

@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from sdph.engine import surface
-from sdph.engine.walls.surface_points import EVEN, SAMPLES, evened, passes
+from sdph.engine.walls.surface_points import EVEN, SAMPLES, evened
 from sdph.laws.constants import ROUND_OFF
 from sdph.schema import CaseError
 
@@ -230,17 +230,19 @@ def _turned(corners: np.ndarray) -> np.ndarray:
     return np.cross(edges[:, 0], edges[:, 1])
 
 
-def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points (P, d) [m] on facets (F, d, d), the normals (P, d) there, and which facet each is on (P,): one for each
-    spacing^(d-1) of all facets together, whatever size each of them has; evenly along each chain of plane ones."""
+def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Points (P, d) [m] on facets (F, d, d), the normals (P, d) there, which facet each is on (P,), and the part (P,)
+    of the area that is its, over the mean: one for each spacing^(d-1) of all facets together, whatever size each of them
+    has; evenly along each chain of plane ones."""
     size = sizes(corners)
     if corners.shape[2] == 2:
         own, share = _along(chains(corners), size / spacing)
-        return corners[own, 0] + share[:, None] * (corners[own, 1] - corners[own, 0]), normals(corners)[own], own
+        places = corners[own, 0] + share[:, None] * (corners[own, 1] - corners[own, 0])
+        return places, normals(corners)[own], own, np.ones(len(own))
     ends = np.cumsum(size)
     places, facing, own = _strewn(corners, ends, size, SAMPLES * max(1, round(ends[-1] / spacing**2)))
-    points, normal, nearest = evened(places, facing, spacing)
-    return points, normal, own[nearest]
+    points, normal, nearest, share = evened(places, facing, spacing)
+    return points, normal, own[nearest], share
 
 
 def _along(found: list[np.ndarray], size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -288,7 +290,7 @@ def _strewn(corners, ends, size, count: int) -> tuple[np.ndarray, np.ndarray, np
     """Places (N, 3) that lie on triangles in proportion to their areas, `ends` their sums, the normals there, and on
     which triangle each is."""
     own = np.minimum(np.searchsorted(ends, (np.arange(count) + 0.5) * (ends[-1] / count), side="right"), len(size) - 1)
-    a, b = np.modf((passes(count)[:, None] + 1) * EVEN)[0].T
+    a, b = np.modf((np.arange(count)[:, None] + 1) * EVEN)[0].T
     # alike in area (Turk 1990, Graphics Gems, 24); folding the square would lay half of the sequence on the other half
     a = np.sqrt(a)
     edges = corners[own, 1:] - corners[own, :1]

@@ -14,7 +14,7 @@ def behind(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
     surface = Surface(corners)
     depth, free = -surface.distance(places), surface.free()
     hidden = depth > 0.0
-    if len(free):
+    if len(free) and len(places):
         hidden &= _away(free, places) > depth * (1.0 + ROUND_OFF)
     return hidden
 

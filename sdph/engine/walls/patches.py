@@ -60,8 +60,8 @@ def _strewn(shape, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Places (S, d) [m] about a spacing apart on a surface, the normals there, and the area of each."""
     if isinstance(shape, Mesh):
         corners = shape.triangles.points[shape.triangles.regular_faces]
-        places, normals, _ = facets.spread(corners, spacing)
-        return places, normals, np.full(len(places), facets.sizes(corners).sum() / len(places))
+        places, normals, _, share = facets.spread(corners, spacing)
+        return places, normals, share * (facets.sizes(corners).sum() / len(places))
     if isinstance(shape, Outline):
         return shape.strewn(spacing)
     own = shape.tank if isinstance(shape, Joined) else shape

@@ -256,7 +256,7 @@ class Mesh:
     def thin(self, spacing):
         """Places (P, 3) [m] of the surface behind which it comes back within two spacings: a plate between two rooms is
         too thin there for wall particles half a spacing behind each of its faces, a spacing apart."""
-        places, facing, _ = facets.spread(self.triangles.points[self.triangles.regular_faces], spacing)
+        places, facing, *_ = facets.spread(self.triangles.points[self.triangles.regular_faces], spacing)
         behind = places + spacing * facing
         cells, closest = self.triangles.find_closest_cell(behind, return_closest_point=True)
         near = np.linalg.norm(behind - closest, axis=1) < (1.0 - ROUND_OFF) * spacing

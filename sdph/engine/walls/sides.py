@@ -235,12 +235,13 @@ def _within(points, axis: int, span) -> np.ndarray:
 def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) -> Placed:
     """Dummies in LAYERS behind facets (F, d, d) [m], which let grains slip or not, and whose (F,) each is."""
     spacing = case.resolution.spacing
-    points, normals, facet = facets.spread(corners, spacing)
+    points, normals, facet, part = facets.spread(corners, spacing)
     depth = (np.repeat(np.arange(LAYERS), len(points)) + 0.5) * spacing
     feet, normal, owner = np.tile(points, (LAYERS, 1)), np.tile(normals, (LAYERS, 1)), np.tile(whose[facet], LAYERS)
     found = _placed(feet - depth[:, None] * normal, normal, depth, not slips, owner, feet, spacing)
-    whole, here = np.bincount(whose, facets.sizes(corners)), np.bincount(whose[facet])
-    share = (whole[: len(here)] / np.maximum(here, 1))[whose[facet]]
+    found.table[:, -1] *= np.tile(part, LAYERS)
+    whole, here = np.bincount(whose, facets.sizes(corners)), np.bincount(whose[facet], part)
+    share = part * (whole[: len(here)] / np.where(here > 0.0, here, 1.0))[whose[facet]]
     # all that is a patch's; what patches too small for a point have is everybody's
     found.area[: len(points)] = share * (whole.sum() / share.sum())
     for number, boundary in enumerate(case.boundaries.values()):
@@ -254,11 +255,12 @@ def _behind_facets(corners: np.ndarray, whose: np.ndarray, case, slips: bool) ->
 def _beyond_facets(corners: np.ndarray, whose: np.ndarray, slip: np.ndarray, case) -> Placed:
     """Dummies beyond edges and corners of facets, without a normal, as in those of a box."""
     spacing = case.resolution.spacing
-    places, feet, of, _ = corners_of_mesh.spread(corners, spacing, LAYERS * spacing)
+    places, feet, of, part = corners_of_mesh.spread(corners, spacing, LAYERS * spacing)
     facing = np.zeros((len(of), 3, 3))
     facing[:, :, : case.dimensions] = facets.normals(corners)[of]
     depth, none = np.linalg.norm(feet - places, axis=1), np.zeros_like(places)
     found = _placed(places, none, depth, ~slip[of].all(axis=1), whose[of[:, 0]], feet, spacing)
+    found.table[:, -1] *= part
     return found._replace(facing=facing, whose=whose[of])
 
 

@@ -14,34 +14,31 @@ SETTLINGS = 8  # in which points come to the middle of their parts; 20 and 40 mo
 GOLDEN = math.pi * (3.0 - math.sqrt(5.0))  # rad, turn from ring to ring, so that rings do not line up
 
 
-def passes(count: int) -> np.ndarray:
-    """Order (count,) in which samples take the members of an even sequence: each SAMPLES-th, where parts begin, takes
-    those that follow each other, so that parts begin evenly too."""
-    number = np.arange(count)
-    return number // SAMPLES + number % SAMPLES * -(-count // SAMPLES)
-
-
-def evened(places, facing, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points (P, 3) of parts of a surface that are alike in area, their normals, and the nearest sample.
-    Normals count as lengths, so that no part goes round an edge or through a plate."""
-    points, nearest = middles(np.hstack((places, spacing * facing)))
+def evened(places, facing, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Points (P, 3) of parts of a surface that are much alike in area, their normals, the nearest sample, and the area
+    (P,) of each part over the mean. Normals count as lengths, so that no part goes round an edge or through a plate."""
+    points, nearest, share = middles(np.hstack((places, spacing * facing)))
     normal = facing[nearest]
     off = np.einsum("ij,ij->i", points[:, :3] - places[nearest], normal)
-    return points[:, :3] - off[:, None] * normal, normal, nearest
+    return points[:, :3] - off[:, None] * normal, normal, nearest, share
 
 
-def middles(samples: np.ndarray, start: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+def middles(samples: np.ndarray, start: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Middles (P, k) of parts, SAMPLES of them each or one from each of `start` (P, k), of what samples (N, k) fill
-    evenly, and the sample that is nearest to each middle. The parts are those of the samples that are nearest to each
-    point, which moves to their middle (Lloyd 1982, IEEE Trans. Inf. Theory 28, 129)."""
-    points = samples[SAMPLES // 2 :: SAMPLES].copy() if start is None else start
-    count = len(points)
+    evenly, the sample that is nearest to each middle, and how much (P,) each part holds over the mean. The parts are
+    those of the samples that are nearest to each point, which moves to their middle (Lloyd 1982, IEEE Trans. Inf.
+    Theory 28, 129). They begin along a tree that halves the samples by place: in the order of facets, each SAMPLES-th
+    of a mesh in rows may be in one column of it."""
+    if start is None:
+        start = samples[scipy.spatial.cKDTree(samples, SAMPLES).indices[SAMPLES // 2 :: SAMPLES]]
+    points, count = start, len(start)
     for _ in range(SETTLINGS):
         own = scipy.spatial.cKDTree(points).query(samples)[1]
         number = np.bincount(own, minlength=count)
         sums = np.stack([np.bincount(own, column, minlength=count) for column in samples.T], axis=1)
         points = np.where(number[:, None] > 0, sums / np.maximum(number, 1)[:, None], points)
-    return points, scipy.spatial.cKDTree(samples).query(points)[1]
+    held = np.bincount(scipy.spatial.cKDTree(points).query(samples)[1], minlength=count)
+    return points, scipy.spatial.cKDTree(samples).query(points)[1], held * (count / max(len(samples), 1))
 
 
 def rings(profile: np.ndarray, spacing: float) -> np.ndarray:

@@ -126,16 +126,25 @@ def test_grains_that_fill_a_square_vessel_are_as_dense_in_its_corners(tmp_path):
     assert np.abs(density / np.median(density) - 1.0).max() < 0.04
 
 
-def test_grains_that_fill_a_cube_are_as_dense_along_its_edges(tmp_path):
-    """Points on facets stand in no lattice. Where nothing stands beyond edges those beside them lack 11 % on average,
-    and those in corners 23 %."""
+def cut(across: int) -> np.ndarray:
+    """A cube with sides of H about 0, each cut into so many squares along and across, of two triangles."""
+    middles = [side * axis for axis in 0.5 * H * np.eye(3) for side in (-1.0, 1.0)]
+    sizes = {"i_size": H, "j_size": H, "i_resolution": across, "j_resolution": across}
+    return np.concatenate([triangles(pyvista.Plane(center=own, direction=own, **sizes)) for own in middles])
+
+
+@pytest.mark.parametrize("across", [1, 7, 24])
+def test_grains_that_fill_a_cube_are_as_dense_along_its_edges(tmp_path, across):
+    """Points on facets stand in no lattice. Where all of them counted alike the first rows were off by up to 8 to 15 %,
+    those along edges by 22, in corners by 34; where nothing stands beyond edges those beside them lack 11 % on average,
+    and those in corners 23."""
     low, high = 0.04, 0.12
-    s = in_a_vessel(tmp_path, cube() + 0.08, ([low] * 3, [high] * 3), (0.16,) * 3).state
+    s = in_a_vessel(tmp_path, cut(across) + 0.08, ([low] * 3, [high] * 3), (0.16,) * 3).state
     density = s.density / np.median(s.density)
     sides = sum((np.minimum(x - low, high - x) < SPACING).astype(int) for x in (s.x, s.y, s.z))
-    means = [density[sides == number].mean() for number in range(4)]
     off = [np.abs(density[sides == number] - 1.0).max() for number in range(4)]
-    assert np.abs(np.array(means[:3]) - 1.0).max() < 0.05 and abs(means[3] - 1.0) < 0.15 and off[1] < 0.15
+    print("at most off, inside, at sides, edges, corners:", *(f"{most:.3f}" for most in off))
+    assert off[1] < 0.03 and max(off) < 0.06
 
 
 def test_who_stands_behind_a_facet_of_a_corner_does_not_see_its_dummies(tmp_path):
@@ -147,7 +156,9 @@ def test_who_stands_behind_a_facet_of_a_corner_does_not_see_its_dummies(tmp_path
     boundary, wall, s = stepper.boundary, stepper.wall, stepper.state
     hollow, seen = (s.x > 0.08) & (s.y > 0.08), np.zeros(len(s.x), bool)
     own = boundary.beyond.corner & (np.hypot(boundary.dummies.x - 0.08, boundary.dummies.y - 0.08) < 4.0 * SPACING)
-    assert own.sum() == 7 and np.abs(boundary.feet[own, :2] - 0.08).max() < 1e-12
+    wedge = 0.25 * np.pi * REACH**2
+    assert boundary.dummies.volume[own].sum() == pytest.approx(wedge, rel=0.05)
+    assert np.abs(boundary.feet[own, :2] - 0.08).max() < 1e-12
     for i in range(len(s.x)):
         seen[i] = own[wall.entries[wall.start[i] :][: wall.number[i]]].any()
     assert seen[hollow].any() and not seen[~hollow].any()

@@ -7,6 +7,7 @@ import pyvista
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
+from scipy.spatial.distance import cdist
 
 from sdph.engine.walls import facets
 
@@ -33,7 +34,7 @@ def ball(rounds: int) -> np.ndarray:
     ids=["slivers", "thinner slivers", "large", "like the spacing", "0.2 of the spacing", "two triangles"],
 )
 def test_points_stand_one_spacing_apart(corners):
-    points, normals, _ = facets.spread(corners, SPACING)
+    points, normals, *_ = facets.spread(corners, SPACING)
     area = facets.sizes(corners).sum()
     assert len(points) == round(area / SPACING**2)
     apart = cKDTree(points).query(points, k=2)[0][:, 1] / SPACING
@@ -43,8 +44,34 @@ def test_points_stand_one_spacing_apart(corners):
     np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, rtol=1e-12)
 
 
+def sheet(across: int, along: int) -> np.ndarray:
+    return triangles(pyvista.Plane(i_resolution=across, j_resolution=along))
+
+
+@pytest.mark.parametrize("corners", [sheet(1, 1), sheet(1, 400), sheet(4, 800), sheet(100, 100)], ids=len)
+def test_walls_fill_their_room_evenly(corners):
+    """Each sixteenth sample in the order of the facets, where points began, was in one column of four: points there had
+    a 20th of their room, and elsewhere gaps of four spacings. All points counted alike, and their number half a spacing
+    in front was 1.2 to 6 times its mean in places."""
+    points, normals, _, share = facets.spread(corners, SPACING)
+    ticks = np.linspace(-0.3, 0.3, 25)
+    probes = np.stack([*np.meshgrid(ticks, ticks), np.full((25, 25), 0.5 * SPACING * normals[0, 2])], axis=-1)
+    found = sum(
+        share @ kernel(cdist(points - (layer + 0.5) * SPACING * normals, probes.reshape(-1, 3)) / (1.3 * SPACING))
+        for layer in range(3)
+    )
+    print(f"{found.std() / found.mean():.3f}, up to {found.max() / found.mean():.3f}")
+    assert share.mean() == pytest.approx(1.0, rel=1e-12)
+    assert found.std() < 0.05 * found.mean() and found.max() < 1.15 * found.mean()
+
+
+def kernel(q):
+    """Wendland's C2, up to a factor."""
+    return np.maximum(1.0 - 0.5 * q, 0.0) ** 4 * (1.0 + 2.0 * q)
+
+
 def test_points_lie_on_a_ball_and_their_normals_point_outwards():
-    points, normals, _ = facets.spread(ball(4), SPACING)
+    points, normals, *_ = facets.spread(ball(4), SPACING)
     radius = np.linalg.norm(points, axis=1)
     assert radius.min() > 0.498 and radius.max() < 0.501  # of facets, and planes through them
     assert np.einsum("ij,ij->i", points, normals).min() > 0.49
@@ -56,7 +83,7 @@ def test_a_chain_of_lines_is_strewn_evenly(lengths, seed):
     angles = np.cumsum(np.random.default_rng(seed).uniform(-0.1, 0.1, len(lengths)))
     steps = np.array(lengths)[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     ends = np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
-    points, normals, _ = facets.spread(np.stack([ends[:-1], ends[1:]], axis=1), SPACING)
+    points, normals, *_ = facets.spread(np.stack([ends[:-1], ends[1:]], axis=1), SPACING)
     assert len(points) == max(1, round(sum(lengths) / SPACING))
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     even = sum(lengths) / len(points)
@@ -79,7 +106,7 @@ def test_plane_facets_in_any_order_leave_no_gap(seed):
     corners = np.concatenate([np.stack([ends[:-1], ends[1:]], axis=1) for ends in rings])
     corners = corners[np.random.default_rng(seed).permutation(len(corners))]
     spacing = facets.sizes(corners).mean() / 1.3
-    points, _, _ = facets.spread(corners, spacing)
+    points, *_ = facets.spread(corners, spacing)
     assert len(points) == round(facets.sizes(corners).sum() / spacing)
     round_it = points[np.hypot(*points.T) < 1.5]
     turns = np.sort(np.arctan2(round_it[:, 1], round_it[:, 0]))

@@ -73,3 +73,4 @@ def test_what_is_behind_a_ring_of_facets_is_hidden_but_not_under_its_rim():
     )  # normals to the axis
     places = np.array([[1.2, 0.0, 1.0], [0.5, 0.0, 1.0], [1.2, 0.0, -0.1], [0.0, 0.0, -0.1]])
     assert hidden.behind(facets, places).tolist() == [True, False, False, False]
+    assert hidden.behind(facets, places[:0]).tolist() == []  # of a domain without walls of its own
