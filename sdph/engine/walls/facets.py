@@ -232,8 +232,8 @@ def _turned(corners: np.ndarray) -> np.ndarray:
 
 def spread(corners: np.ndarray, spacing: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Points (P, d) [m] on facets (F, d, d), the normals (P, d) there, which facet each is on (P,), and the part (P,)
-    of the area that is its, over the mean: one for each spacing^(d-1) of all facets together, whatever size each of them
-    has; evenly along each chain of plane ones."""
+    of the area that is its, over the mean: one for each spacing^(d-1) of all facets together, whatever size each of
+    them has; evenly along each chain of plane ones."""
     size = sizes(corners)
     if corners.shape[2] == 2:
         own, share = _along(chains(corners), size / spacing)
