@@ -71,13 +71,23 @@ def test_the_width_is_that_of_the_outermost_liquid_of_each_sector(monkeypatch, d
 
 @pytest.mark.parametrize(
     ("value", "ok"),
-    [(1.8, [False, False]), (1.9, [False, True]), (2.2, [True, True]), (2.7, [True, False]), (3.5, [False, False])],
+    [
+        (1.8, [False, False, True]),
+        (1.88, [False, True, True]),
+        (2.2, [True, True, False]),
+        (2.7, [True, False, False]),
+        (3.5, [False, False, False]),
+    ],
 )
 def test_a_spread_outside_the_laws_is_told(tmp_path, monkeypatch, drops, value, ok):
-    """We 20, 90 degrees: 2.406 and 3.147 or 2.046, less and more a tenth: 2.165 to 3.461 or 1.841 to 2.646."""
+    """We 20, 90 degrees: 2.406 and 3.147 or 2.046, less and more a tenth: 2.165 to 3.461 or 1.841 to 2.646. A film of
+    less than three spacings, as 16 in the diameter leave of a drop wider than 1.89, is none."""
     monkeypatch.setattr(drops, "course", lambda *_: np.array([[0.0, 1.0, 2.0], [0.5, value, 1.0]]))
     checks = drops.checks(tmp_path, (), QUIET, ((20.0, 16),))
-    assert [check["ok"] for check in checks] == ok and {check["value"] for check in checks} == {value}
+    assert [check["ok"] for check in checks] == ok and {check["value"] for check in checks[:2]} == {value}
+    assert checks[2]["value"] == pytest.approx(2.0 / 3.0 * 16 / value**2) and checks[2]["name"].endswith(
+        "D_0/dx = 16: film when widest [spacings]"
+    )
     assert (tmp_path / "drop_spread.png").is_file()
 
 
