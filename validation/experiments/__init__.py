@@ -36,7 +36,7 @@ NAMES = (
     "bed_pressure",
     "bed_profiles",
 )
-LONG = ("drop_spread",)  # ten minutes of a core, with finer drops hours: run by name alone, `sdph validate experiments.drop_spread`
+LONG = ("drop_spread",)  # ten minutes, hours where finer: by name alone, `sdph validate experiments.drop_spread`
 
 # record -> how names of its checks begin -> (who measured, what, ours): a table of the dashboard
 MEASURED = {
