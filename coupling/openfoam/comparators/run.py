@@ -1,9 +1,8 @@
 """Reference runs of stock OpenFOAM solvers on the same case: twoPhaseEulerFoam (two fluids), reactingParcelFoam
 (droplets).
 
-Two fluids take their files from `openfoam_case_templates/<scene>/tfm`, what a scene has not from `two_fluid/tfm`
-there, droplets from `droplets/dpm`; every physical number reaches them from the case. A finished run is kept in the
-user's cache, so that it is made once.
+Two fluids take their files from `openfoam_case_templates/<scene>/tfm`, what a scene has not from `two_fluid/tfm`,
+droplets from `droplets/dpm`; every physical number reaches them from the case. A run is kept in the user's cache.
 """
 
 from __future__ import annotations
@@ -183,8 +182,8 @@ def _run(
     known.refuse_no_output(case)
     environment = _environment(solver)
     _clear(folder)
-    made = start is not None or solver is DROPLETS  # from the files that all cases share
-    _write(solver, case, folder, ranks, SHARED[solver.kind] if made else template(case, solver.kind), mesh)
+    own = SHARED[solver.kind] if start or solver is DROPLETS else template(case, solver.kind)
+    _write(solver, case, folder, ranks, own, mesh)
     for name, text in files.items():
         (folder / "constant" / name).write_text(text, encoding="utf-8")
     begun = start.digest if start else digest_of_mesh(mesh)
@@ -192,6 +191,7 @@ def _run(
     made_with = [program, install.require().package, *(path.name for path in _libraries(solver)), begun]
     kept = shelf() / f"{key(folder, ' '.join(made_with))}.npz"
     if kept.exists() and not again:
+        programs.say(f"{folder.name}: {solver.name} ran this before; delete {kept} to run it anew")
         return load(kept)
     programs.say(f"{folder.name}: {solver.name} begins, {told}")
     for tool in () if mesh else ("blockMesh",) if start else solver.prepare:

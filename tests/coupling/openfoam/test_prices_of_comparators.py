@@ -81,3 +81,21 @@ def test_it_is_said_before_the_run_begins(monkeypatch, tmp_path, scene, run, tol
     with programs.told(said.append), pytest.raises(GasError, match="stopped"):
         run(load(scene, f"resolution.cell_mm={10 if scene == 'bubbling_bed' else 100}"), tmp_path / "tfm")
     assert said[0].startswith(told) and said[0].endswith("what is left is told every ten seconds")
+
+
+@pytest.mark.openfoam
+def test_it_is_said_where_a_run_was_made_before(monkeypatch, tmp_path):
+    """Whoever changed their OpenFOAM would compare with what it had been, and not know."""
+    said = []
+    for name in ("run", "run_solver"):
+        monkeypatch.setattr(programs, name, lambda *_: None)
+    monkeypatch.setattr(references, "shelf", lambda: tmp_path / "kept")
+    monkeypatch.setattr(references, "_read", lambda *_: "as it ran")
+    monkeypatch.setattr(references, "keep", lambda _, file: (file.parent.mkdir(), file.touch()))
+    monkeypatch.setattr(references, "load", lambda _: "as it was kept")
+    case = load("bubbling_bed", "resolution.cell_mm=10")
+    with programs.told(said.append):
+        found = [references.run_two_fluid(case, tmp_path / "tfm") for _ in range(2)]
+    assert found == ["as it ran", "as it was kept"] and len(said) == 2
+    (file,) = (tmp_path / "kept").iterdir()
+    assert said[1] == f"tfm: twoPhaseEulerFoam ran this before; delete {file} to run it anew"
