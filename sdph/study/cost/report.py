@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from pathlib import Path
 
 from sdph import scenes
@@ -17,7 +18,7 @@ from sdph.study.explain import tables
 
 LIMITS = (0.10, 0.05, 0.02, 0.01)  # errors that the table answers for
 NEGLIGIBLE = 0.01  # both below the usual `run.accuracy`: rightly told to be of no account
-LEAST = 1e-12  # error that the logarithmic axis ends at
+UNDER_ALL = 0.5  # of the least error that is not 0: where a rung without any is drawn, on an axis without 0; our choice
 NEAR_THE_EDGE = 0.7  # of the width: names of points beyond it stand on their left
 FACTOR = 3.0  # an estimate is right within it: our choice
 
@@ -130,12 +131,13 @@ def draw(scene: str, rows: list[dict], picture: Path) -> None:
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(figsize=(7.5, 5.5), constrained_layout=True)
+    rows = _on_the_axis(rows)
     _line(axes, measured_rows.front(rows), "o-", "tab:red", "sdph, at most, with all finer")
     for colour, solver in zip(("tab:blue", "tab:green"), sorted({row["solver"] for row in rows} - {OWN})):
         _line(axes, [row for row in rows if row["solver"] == solver], "s--", colour, f"{solver}, by the same rule")
     loads = [float(row["load"]) for row in rows]
     axes.set(xscale="log", yscale="log", xlabel="wall time [s]")
-    axes.set_ylabel("distance of the worst metric from the limit [%]")
+    axes.set_ylabel("distance of the worst metric from the limit [%], triangles: none")
     _points(axes, [row for row in rows if math.isfinite(row["error"])])
     axes.set_title(
         f"{scene}; reference: {declared(scene).reference}\nload of the machine {min(loads):g} to {max(loads):g} on "
@@ -148,20 +150,53 @@ def draw(scene: str, rows: list[dict], picture: Path) -> None:
     pyplot.close(figure)
 
 
+def _on_the_axis(rows: list[dict]) -> list[dict]:
+    """The rows with errors of 0 (`none`) drawn below all others."""
+    told = [row[key] for row in rows for key in ("error", "bound")]
+    least = UNDER_ALL * min((error for error in told if 0.0 < error < math.inf), default=1.0)
+    return [
+        row | {key: max(row[key], least) for key in ("error", "bound")} | {"none": not row["error"]} for row in rows
+    ]
+
+
 def _line(axes, rows: list[dict], style: str, colour: str, label: str) -> None:
     told = [row for row in rows if math.isfinite(row["bound"])]
-    places = [row["wall_s"] for row in told], [100.0 * max(row["bound"], LEAST) for row in told]
+    places = [row["wall_s"] for row in told], [100.0 * row["bound"] for row in told]
     axes.plot(*places, style, color=colour, label=label if told else f"{label}: nothing can be told")
 
 
 def _points(axes, rows: list[dict]) -> None:
-    """Each row by its own error, its name beside it on the side where there is room."""
-    places = [(row["wall_s"], 100.0 * max(row["error"], LEAST)) for row in rows]
-    for row, place in zip(rows, places):
-        axes.plot(*place, "o" if row["without"] == ALL else "x", color="tab:gray", ms=4)
-    for row, place in zip(rows, places):
-        label = str(row["label"])
-        named = f"{label.rpartition('.')[2]}={row[label]}" if label in row else label
-        across, _ = axes.transAxes.inverted().transform(axes.transData.transform(place))
-        side, off = ("right", -3) if across > NEAR_THE_EDGE else ("left", 3)
-        axes.annotate(named, place, fontsize=6, xytext=(off, 3), textcoords="offset points", ha=side)
+    """Each row by its own error, and beside it its name, unless that lies on another one, which counts it: rungs have
+    theirs before effects left out."""
+    for row in rows:
+        style = "v" if row["none"] else "o" if row["without"] == ALL else "x"
+        axes.plot(*_place(row), style, color="tab:gray", ms=4)
+    axes.figure.draw_without_rendering()
+    names, more = {}, Counter()
+    for row in sorted(rows, key=lambda row: row["without"] != ALL):
+        name = _named(axes, row)
+        text = name.get_text()
+        name.set_text(f"{text} (+ 99)")  # with room for how many it hides
+        room = name.get_window_extent()
+        name.set_text(text)
+        under = next((other for other, taken in names.items() if taken.overlaps(room)), name)
+        if under is name:
+            names[name] = room
+        else:
+            name.remove()
+            more[under] += 1
+    for name, hidden in more.items():
+        name.set_text(f"{name.get_text()} (+ {hidden})")
+
+
+def _place(row: dict) -> tuple[float, float]:
+    return row["wall_s"], 100.0 * row["error"]
+
+
+def _named(axes, row: dict):
+    """The name of a row, on the side of its point where there is room."""
+    label = str(row["label"])
+    named = f"{label.rpartition('.')[2]}={row[label]}" if label in row else label
+    across, _ = axes.transAxes.inverted().transform(axes.transData.transform(_place(row)))
+    side, off = ("right", -3) if across > NEAR_THE_EDGE else ("left", 3)
+    return axes.annotate(named, _place(row), fontsize=6, xytext=(off, 3), textcoords="offset points", ha=side)

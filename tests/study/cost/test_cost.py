@@ -234,10 +234,33 @@ def test_names_in_the_figure_stay_within_it():
 
     figure, axes = pyplot.subplots()
     axes.set(xscale="log", yscale="log")
-    made = [row("all 1/1", wall=wall) | {"error": 0.1} for wall in (1.0, 100.0)]
+    made = [row("all 1/1", wall=wall) | {"error": 0.1, "none": False} for wall in (1.0, 100.0)]
     report._points(axes, made)
     figure.canvas.draw()
     assert all(figure.bbox.contains(*corner) for text in axes.texts for corner in text.get_window_extent().corners())
     assert axes.lines[0].get_ydata() == [10.0]  # per cent
     assert [text.get_ha() for text in axes.texts] == ["left", "right"]
     pyplot.close(figure)
+
+
+def test_names_in_the_figure_that_lie_on_another_are_counted_by_it():
+    """The bed's 18 rungs and effects of about the same time and error were one black bar."""
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots()
+    axes.set(xscale="log", yscale="log")
+    crowd = [row(f"without {k}", without=str(k), wall=1.0 + 0.01 * k) for k in range(12)]
+    made = [*crowd, row("all 1/1", wall=1.05), row("far", wall=50.0)]
+    report._points(axes, [own | {"error": 0.1, "none": False} for own in made])
+    figure.canvas.draw()
+    assert len(axes.lines) == 14 and [text.get_text() for text in axes.texts] == ["all 1/1 (+ 12)", "far"]
+    pyplot.close(figure)
+
+
+def test_an_error_of_none_does_not_stretch_the_figure():
+    """It was drawn at 1e-10 per cent, and all others in one line."""
+    whole = row("all", wall=1.0) | {"error": 0.2, "bound": 0.3}
+    rungs = [whole, whole | {"error": 0.05, "bound": 0.1}, whole | {"error": 0.0, "bound": float("inf")}]
+    drawn = report._on_the_axis(rungs)
+    assert [(own["error"], own["none"]) for own in drawn] == [(0.2, False), (0.05, False), (0.025, True)]
+    assert [own["bound"] for own in drawn] == [0.3, 0.1, float("inf")]
