@@ -30,7 +30,8 @@ def _patch(case, nozzle) -> Patch:
     velocity = tuple(nozzle.speed * a for a in unit(nozzle.direction))
     lower, upper = (tuple(c + sign * half for c in nozzle.centre) for sign in (-1.0, 1.0))
     alpha_p, diameter = streams_of(case, nozzle).alpha_p, sizes.own_diameter(case, nozzle)
-    return Patch(alpha_p, nozzle.temperature, velocity, lower, upper, nozzle.half_angle, diameter)
+    largest = sizes.largest(case, nozzle)
+    return Patch(alpha_p, nozzle.temperature, velocity, lower, upper, nozzle.half_angle, diameter, largest)
 
 
 class InflowP(NamedTuple):

@@ -54,6 +54,15 @@ def own_diameter(case, nozzle) -> float | None:
     return float(1.0 / (own.share / sauter_diameter(own.diameter, own.variance)).sum())
 
 
+def largest(case, nozzle) -> float | None:
+    """Sauter mean [m] of the particle with the largest drops that a nozzle gives; a table of drops counts as its
+    grains."""
+    if nozzle.shape == "table" or case.grains is None:
+        return None
+    own = of_nozzle(case, nozzle)
+    return float(sauter_diameter(own.diameter, own.variance).max())
+
+
 def of_densest(case, patches):
     """The case as if all its grains were of the diameter that the densest of the `patches` has of its own."""
     densest = max(patches, key=lambda patch: patch.alpha_p, default=None)

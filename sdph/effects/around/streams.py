@@ -208,7 +208,7 @@ def without(gone, rows):
 class Patch:
     """Grains that are there at the start, or come in: volume fraction, temperature, velocity, corners of their box;
     angle [rad] that their paths spread up to on each side; Sauter mean diameter [m] where it is not that of the
-    grains."""
+    grains, and that of the particles with the largest drops."""
 
     alpha_p: float
     temperature: float
@@ -217,3 +217,4 @@ class Patch:
     upper: tuple
     half_angle: float = 0.0
     diameter: float | None = None
+    largest: float | None = None

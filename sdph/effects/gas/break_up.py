@@ -130,9 +130,10 @@ def window_limit(p, case, state) -> float:
 
 
 def call(scales) -> Judgement:
-    """Weber number of the fastest slip over the critical one; drops that do not break are too large."""
-    s, sigma = scales, scales.grains.surface_tension
-    number = s.slip**2 * s.gas.density * 0.5 * s.grains.diameter / sigma / law.CRITICAL_WEBER if sigma else 0.0
+    """Weber number of the drops that are the likeliest to break over the critical one; those that do not break are too
+    large."""
+    s, sigma, own = scales, scales.grains.surface_tension, scales.breaking
+    number = own.slip**2 * s.gas.density * 0.5 * own.diameter / sigma / law.CRITICAL_WEBER if sigma else 0.0
     return Judgement("Weber / 6", number, 1.0, SOURCE, s.rim if number > 1.0 else 0.0)
 
 

@@ -20,7 +20,7 @@ from sdph.effects.gas import reaction
 from sdph.effects.gas.turbulent_dispersion import begins_with
 from sdph.laws import dispersion, drag, exact, granular, heat
 from sdph.laws.constants import TINY
-from sdph.methods.grains import start, ways
+from sdph.methods.grains import breaking, start, ways
 
 SHEAR = 0.5  # sqrt(I2D) over the rate of a simple shear: D_xy is half of it
 DILUTE = 1e-3  # alpha_p below which grains do not meet often enough to matter, Elghobashi 1994
@@ -86,6 +86,8 @@ class Scales:
     def slip(self) -> float:
         """Largest velocity between grains and gas [m/s]; 0 where nothing drives either."""
         return max(self.jet, self.thrown, self.falling, self.rush, self.eddies) if self.patches else 0.0
+
+    breaking = cached_property(breaking.likeliest)  # of drops: those with the largest Weber number
 
     @cached_property
     def eddies(self) -> float:

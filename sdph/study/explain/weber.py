@@ -14,9 +14,12 @@ MEANING = "droplets break up: that is the effect break_up"
 
 
 def rows(s) -> list[tuple]:
-    """Rows, as in `sdph.study.explain.tables.numbers`: of the largest slip of the case, and of the drops of tables."""
-    value = s.gas.density * s.slip**2 * s.grains.diameter / s.grains.surface_tension
-    of = f"of {1e3 * s.grains.diameter:.3g} mm at {s.slip:.3g} m/s, {_fastest(s)}"
+    """Rows, as in `sdph.study.explain.tables.numbers`: of the drops that are the likeliest to break, and of those of
+    tables."""
+    drop = s.breaking
+    value = s.gas.density * drop.slip**2 * drop.diameter / s.grains.surface_tension
+    fastest = "drops across gas that comes in" if drop.across else _fastest(s)
+    of = f"of {1e3 * drop.diameter:.3g} mm at {drop.slip:.3g} m/s, {fastest}"
     tables = [(name, own) for name, own in s.case.nozzles.items() if own.table]
     return [("Weber", value, WHOLE, f"{MEANING}; {of}", SOURCE), *(_of_table(s, *pair) for pair in tables)]
 

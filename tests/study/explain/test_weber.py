@@ -6,7 +6,9 @@ import pytest
 from sdph import scenes
 from sdph.case import judge
 from sdph.case import read as cases
-from sdph.effects.around import drops
+from sdph.effects.around import drops, sizes
+from sdph.effects.gas import break_up
+from sdph.laws.break_up import sauter_diameter
 from sdph.study.explain import droplets, weber
 
 
@@ -17,7 +19,7 @@ def numbers():
 
 def test_the_number_of_a_case_says_its_speed_and_size():
     case = cases.load(scenes.find("spray_cone")[1])
-    speed, size = case.nozzles["cone"].speed, case.grains.diameter
+    speed, size = case.nozzles["cone"].speed, sauter_diameter(case.grains.diameter, case.grains.diameter_std**2)
     _, value, _, meaning, _ = numbers()["Weber"]
     assert value == pytest.approx(case.gas.density * speed**2 * size / case.grains.surface_tension)
     assert meaning.endswith(f"of {1e3 * size:.3g} mm at {speed:.3g} m/s, nozzles.cone")
@@ -71,3 +73,23 @@ def test_the_largest_of_a_table_is_told_with_its_time(tmp_path):
     assert own[0] == "Weber, largest of nozzles.mouth.table" and own[1] == pytest.approx(3.2655)
     assert own[3].endswith("its drop at 0.003 s, of 0.2 mm at 30 m/s")
     assert weber.rows(spray(tmp_path, table_from_s=0.0))[1][1] == pytest.approx(9.0 * 3.2655)
+
+
+def test_the_largest_class_of_a_nozzle_across_the_wind_is_the_likeliest_to_break():
+    """Of five classes of Rosin & Rammler the coarsest, in gas that comes from the side."""
+    table = cases.parsed(scenes.find("spray_cone")[1])
+    own = table["nozzles"]["cone"]
+    own |= {"sizes": "rosin_rammler", "size_parameter_mm": 0.3, "size_exponent": 2.5, "least_diameter_mm": 0.03}
+    own |= {"size_classes": 5, "speed_m_s": 20.0}
+    side = {"kind": "velocity_inlet", "side": "left", "velocity_m_s": [60.0, 0.0, 0.0], "temperature_K": 500.0}
+    table["boundaries"]["wind"] = side
+    case = cases.from_table(table)
+    drop = sizes.of_nozzle(case, case.nozzles["cone"])
+    largest = float(sauter_diameter(drop.diameter, drop.variance).max())
+    scales = judge.scales_of(case)
+    assert largest > 1.5 * scales.grains.diameter
+    number = case.gas.density * (60.0**2 + 20.0**2) * largest / case.grains.surface_tension
+    row = weber.rows(scales)[0]
+    assert row[1] == pytest.approx(number)
+    assert row[3].endswith(f"of {1e3 * largest:.3g} mm at 63.2 m/s, drops across gas that comes in")
+    assert break_up.call(scales).number == pytest.approx(number / 12.0)
